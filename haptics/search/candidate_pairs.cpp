@@ -225,7 +225,7 @@ void CandidatePairs::allow_twice_as_many() {
 }
 
 bool CandidatePairs::are_many() const {
-  return now_.search().set.count() > most_pairs_ / 2;
+  return now_.search().set.pair_and_box_count() > most_pairs_ / 2;
 }
 
 void CandidatePairs::cancel() {

@@ -53,8 +53,8 @@ struct CandidateSet {
   std::size_t certify_count = 0;       ///< of those to certify, and the boxes
   collision::FrameReport report;       ///< of finding out which bodies are near; in total, of the search
 
-  /// Number of pairs as `SearchRange::most_pairs` limits it.
-  std::size_t count() const { return pairs.size() + boxes.size(); }
+  /// What `SearchRange::most_pairs` limits.
+  std::size_t pair_and_box_count() const { return pairs.size() + boxes.size(); }
 };
 
 /// Not thread-safe. Reads neither poses nor minimum clearances of the scene, so these may change during a search.

@@ -52,6 +52,9 @@ class NearMover {
   std::vector<PairToCertify> to_certify_;
 };
 
+extern template void NearMover::add_within(double, std::int32_t, std::vector<TrianglesOfBodies>&);
+extern template void NearMover::add_within(double, std::int32_t, std::vector<PairToCertify>&);
+
 /// One mover among bodies that stand still and objects that move by themselves between its motions. Not thread-safe.
 class MoverSearch {
  public:

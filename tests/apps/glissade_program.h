@@ -15,6 +15,9 @@
 
 namespace glissade::test_support {
 
+/// The network on which programs of a test find each other.
+inline constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
+
 /// Runs `glissade` with the arguments and waits for its end.
 inline ProgramResult glissade(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), GLISSADE_PROGRAM);

@@ -81,7 +81,9 @@ PressingHand::PressingHand(const PressingHandOptions& options) : options_(option
   wait_until("the server holds the glove",
              [this] { return server_->standard_error().find("holds") != std::string::npos; });
   // No fixed time would do: any process may wait for a processor, and the force fades then.
+  const auto held = std::chrono::steady_clock::now();
   wait_until("the hand presses", [this] { return relay_.force() > kPressing_N; });
+  EXPECT_LT(std::chrono::steady_clock::now() - held, std::chrono::seconds(2)) << "the hand may be at rest by now";
   std::this_thread::sleep_for(std::chrono::milliseconds(600));  // until it rests
 }
 

@@ -53,7 +53,11 @@ void Relay::take(bool is_state, std::span<const std::uint8_t> message) {
   const std::lock_guard lock(mutex_);
   const nanoseconds now = monotonic_now();
   const int size = static_cast<int>(message.size());
-  is_state ? last_state_.decode(message.data(), 0, size) : last_command_.decode(message.data(), 0, size);
+  if (is_state) {
+    last_state_.decode(message.data(), 0, size);
+  } else {
+    last_command_.decode(message.data(), 0, size);
+  }
   const Rule& rule = is_state ? states_ : commands_;
   rule(Bytes(message.begin(), message.end()), random_, [&](Bytes result, nanoseconds delay) {
     delayed_.push({now + delay, is_state, std::move(result)});

@@ -49,7 +49,7 @@ class Relay {
 
   static void pass(const Bytes& message, std::mt19937& random, const Send& send);
 
-  /// The force (N) of the last command to come; zero if the last state says that the glove has reduced one.
+  /// The force (N) of the last command that came; zero if the last state says that the glove reduced a command.
   double force() const;
 
   /// A rule that changes a field of each message of the type.

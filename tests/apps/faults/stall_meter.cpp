@@ -1,7 +1,5 @@
 #include "stall_meter.h"
 
-#include <algorithm>
-
 #include <sched.h>
 
 namespace glissade::test_support {
@@ -22,6 +20,11 @@ StallMeter::StallMeter() {
     if (CPU_ISSET(processor, &usable))
       threads_.emplace_back([this, processor](const std::stop_token& stop) { watch(processor, stop); });
   }
+}
+
+std::chrono::nanoseconds StallMeter::end() {
+  threads_.clear();
+  return std::chrono::nanoseconds(longest_ns_.load());
 }
 
 void StallMeter::watch(std::size_t processor, const std::stop_token& stop) {

@@ -4,7 +4,9 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <stop_token>
 #include <thread>
 #include <vector>
 
@@ -15,8 +17,8 @@ class StallMeter {
  public:
   StallMeter();
 
-  /// The longest time by which one of them woke late.
-  std::chrono::nanoseconds longest() const { return std::chrono::nanoseconds(longest_ns_.load()); }
+  /// Ends them; returns the longest time by which one of them woke late.
+  std::chrono::nanoseconds end();
 
  private:
   void watch(std::size_t processor, const std::stop_token& stop);

@@ -62,7 +62,6 @@ std::string script_text(const std::vector<HandPause>& pauses, const ThumbShape& 
 
 ProgramResult record_two_hands(const TemporaryFolder& folder, const std::string& scene,
                                const std::array<std::string, 2>& scripts, double seconds, const std::string& log) {
-  constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
   const std::string scene_file = folder.write("scene.yaml", scene);
   std::array<std::unique_ptr<Process>, 2> gloves;
   for (std::size_t h = 0; h < gloves.size(); ++h) {

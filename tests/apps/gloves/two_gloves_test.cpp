@@ -41,11 +41,11 @@ using test_support::at;
 using test_support::BoxOfScene;
 using test_support::GripScript;
 using test_support::kLesson;
+using test_support::kUrl;
 using test_support::Process;
 using test_support::ProgramResult;
 using testing::HasSubstr;
 
-constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 constexpr std::uint64_t kSeed = 3;
 constexpr double kForceRate = 20.0 / 7e-3;  // N/s: the simulated glove's
 constexpr double kPeriod_s = 1e-3;

@@ -34,7 +34,7 @@ using test_support::HeldByHands;
 using test_support::RecordedTick;
 using testing::Contains;
 
-constexpr double kSeconds = 5.6;
+constexpr double kSeatSeconds = 5.6;
 
 const Vector3d kBar(0.036, 0.37, 0.036);  // edges, metres
 const Vector3d kBarPlace(0.088, 0.0, -0.036);
@@ -104,7 +104,7 @@ class TwoHandsSeat : public testing::Test {
   static void SetUpTestSuite() {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
     folder = std::make_unique<test_support::TemporaryFolder>();
-    server = test_support::record_two_hands(*folder, scene(), {script(kGrip_m), script(-kGrip_m)}, kSeconds, log());
+    server = test_support::record_two_hands(*folder, scene(), {script(kGrip_m), script(-kGrip_m)}, kSeatSeconds, log());
     ASSERT_EQ(server.exit_code, 0) << server.standard_error;
     recorded = test_support::read_ticks(log());
     ASSERT_FALSE(recorded.empty());

@@ -19,8 +19,6 @@
 namespace glissade::apps {
 namespace {
 
-constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
-
 std::string write_key(const test_support::TemporaryFolder& folder, const std::string& name, char digit) {
   const std::string path = folder.write(name, std::string(64, digit) + '\n');
   std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
@@ -47,10 +45,10 @@ TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
   // The glove waits for the server, so the order does not matter; the server ends first, while the hand still presses.
   const std::string key = write_key(folder, "key", 'a');
   auto glove = std::async(std::launch::async, [&] {
-    return test_support::glissade({"glove", "--lcm", kUrl, "--script", script, "--key-file", key});
+    return test_support::glissade({"glove", "--lcm", test_support::kUrl, "--script", script, "--key-file", key});
   });
-  const test_support::ProgramResult server =
-      test_support::glissade({"run", scene, "--lcm", kUrl, "--seconds", "3", "--json", "--key-file", key});
+  const test_support::ProgramResult server = test_support::glissade(
+      {"run", scene, "--lcm", test_support::kUrl, "--seconds", "3", "--json", "--key-file", key});
   const test_support::ProgramResult hand = glove.get();
 
   ASSERT_EQ(server.exit_code, 0) << server.standard_error;
@@ -73,9 +71,10 @@ TEST(TwoProcesses, AServerThatABrowserMayWatchWritesAReportToo) {
                                          "  - {name: plate, shape: {type: plate}}\n"
                                          "  - {name: box, movable: true, shape: {type: box}, pose: {position_m: [0, 0, "
                                          "1]}}\n");
-  const test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", kUrl});
-  const test_support::ProgramResult server = test_support::glissade(
-      {"run", scene, "--lcm", kUrl, "--seconds", "0.3", "--view", "0", "--report", folder.path("report")});
+  const test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
+  const test_support::ProgramResult server =
+      test_support::glissade({"run", scene, "--lcm", test_support::kUrl, "--seconds", "0.3", "--view", "0", "--report",
+                              folder.path("report")});
   ASSERT_EQ(server.exit_code, 0) << server.standard_error;
   EXPECT_NE(server.standard_error.find("http://127.0.0.1:"), std::string::npos) << server.standard_error;
   EXPECT_NE(server.standard_output.find(folder.path("report/index.html")), std::string::npos) << server.standard_output;
@@ -101,12 +100,12 @@ TEST(ThreeProcesses, TwoGlovesPressTheirPartsTogether) {
            "pose: {position_m: [" + x + ", 0, 0]}}\n";
   };
   const std::string scene = folder.write("scene.yaml", "objects:\n" + cube("left", "-0.03") + cube("right", "0.03"));
-  const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "1", "--script",
-                                     write_way(folder, "a.csv", "-0.03,0,0", "-0.01,0,0")});
-  const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "2", "--side", "left",
-                                      "--script", write_way(folder, "b.csv", "0.03,0,0", "0.01,0,0")});
-  const test_support::ProgramResult server =
-      test_support::glissade({"run", scene, "--lcm", kUrl, "--device", "1", "2", "--seconds", "3", "--json"});
+  const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl, "--device", "1",
+                                     "--script", write_way(folder, "a.csv", "-0.03,0,0", "-0.01,0,0")});
+  const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl, "--device", "2", "--side",
+                                      "left", "--script", write_way(folder, "b.csv", "0.03,0,0", "0.01,0,0")});
+  const test_support::ProgramResult server = test_support::glissade(
+      {"run", scene, "--lcm", test_support::kUrl, "--device", "1", "2", "--seconds", "3", "--json"});
   ASSERT_EQ(server.exit_code, 0) << server.standard_error;
   EXPECT_NE(server.standard_error.find("glove 1 holds 'left', glove 2 holds 'right'"), std::string::npos)
       << server.standard_error;
@@ -142,10 +141,12 @@ TEST(ThreeProcesses, OneGlovePassesAPartToTheOther) {
                                                           "3.5,0.15,-0.03,0,1,0,0,0,0\n"
                                                           "4,0.15,-0.1,0,1,0,0,0,0\n"
                                                           "8,0.15,-0.1,0,1,0,0,0,0\n");
-  const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "1", "--script", giver});
-  const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--device", "2", "--script", taker});
-  const test_support::ProgramResult server =
-      test_support::glissade({"run", scene, "--lcm", kUrl, "--device", "1", "2", "--seconds", "5", "--json"});
+  const test_support::Process first(
+      {GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl, "--device", "1", "--script", giver});
+  const test_support::Process second(
+      {GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl, "--device", "2", "--script", taker});
+  const test_support::ProgramResult server = test_support::glissade(
+      {"run", scene, "--lcm", test_support::kUrl, "--device", "1", "2", "--seconds", "5", "--json"});
   ASSERT_EQ(server.exit_code, 0) << server.standard_error;
   const nlohmann::json summary = nlohmann::json::parse(server.standard_output);
   EXPECT_EQ(summary["colliding_poses"], 0);
@@ -156,7 +157,8 @@ TEST(ThreeProcesses, OneGlovePassesAPartToTheOther) {
 TEST(TwoProcesses, TheRecordOfAGloveHasNoAgeBeforeTheFirstCommand) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;
-  test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--record", folder.path("hand.csv")});
+  test_support::Process glove(
+      {GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl, "--record", folder.path("hand.csv")});
   while (!std::filesystem::exists(folder.path("hand.csv")))
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   std::this_thread::sleep_for(std::chrono::milliseconds(100));  // some periods
@@ -178,9 +180,9 @@ TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
                                          "  - {name: box, movable: true, shape: {type: box}, pose: {position_m: [0, 0, "
                                          "1]}}\n");
   const test_support::Process glove(
-      {GLISSADE_PROGRAM, "glove", "--lcm", kUrl, "--key-file", write_key(folder, "a", 'a')});
+      {GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl, "--key-file", write_key(folder, "a", 'a')});
   test_support::Process server(
-      {GLISSADE_PROGRAM, "run", scene, "--lcm", kUrl, "--key-file", write_key(folder, "b", 'b')});
+      {GLISSADE_PROGRAM, "run", scene, "--lcm", test_support::kUrl, "--key-file", write_key(folder, "b", 'b')});
   for (int i = 0; i < 2000 && server.standard_error().find("refused") == std::string::npos; ++i)
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   server.signal(SIGINT);
@@ -196,7 +198,7 @@ TEST(TwoProcesses, AServerThatCannotStartSaysNothingOfWaiting) {
                                          "objects:\n"
                                          "  - {name: plate, shape: {type: plate}}\n"
                                          "  - {name: box, movable: true, shape: {type: box}}\n");
-  test_support::expect_refused({"run", scene, "--lcm", kUrl},
+  test_support::expect_refused({"run", scene, "--lcm", test_support::kUrl},
                                {"stuck.yaml", "'box' collides", "mm deep in 'plate'", "--depenetrate"});
 }
 

@@ -24,11 +24,10 @@
 namespace glissade::apps {
 namespace {
 
+using test_support::kUrl;
 using test_support::Process;
 using test_support::ProgramResult;
 using testing::HasSubstr;
-
-constexpr const char* kUrl = "udpm://239.255.76.67:7667?ttl=0";
 
 class RecordingProcesses : public testing::Test {
  protected:

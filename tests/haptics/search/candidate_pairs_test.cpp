@@ -319,7 +319,7 @@ TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
   const auto pairs_within_radius = [&](double radius) {
     CandidatePairs candidates(ball_in_socket, kGreatest);
     candidates.look(radius, 0.0, {});
-    return candidates.pairs().search().set.count();
+    return candidates.pairs().search().set.pair_and_box_count();
   };
   const std::size_t few = pairs_within_radius(kRadius);
   const std::size_t most_pairs = 2 * pairs_within_radius(kTooLarge) / 3;
@@ -330,12 +330,12 @@ TEST(CandidatePairs, StayWhereASearchFindsTooMany) {
     EXPECT_FALSE(candidates.look(kTooLarge, 0.0, {}));
     EXPECT_TRUE(candidates.found_too_many());
     EXPECT_TRUE(candidates.is_too_large());
-    EXPECT_EQ(candidates.pairs().search().set.count(), few);
+    EXPECT_EQ(candidates.pairs().search().set.pair_and_box_count(), few);
     EXPECT_NEAR(candidates.covered(), kRadius, 1e-9);
     candidates.cancel();
     EXPECT_TRUE(candidates.look(kLarger, 0.0, {}));
     EXPECT_FALSE(candidates.is_too_large());
-    EXPECT_GT(candidates.pairs().search().set.count(), few);
+    EXPECT_GT(candidates.pairs().search().set.pair_and_box_count(), few);
     EXPECT_FALSE(candidates.are_many());
     EXPECT_FALSE(candidates.look(kTooLarge, 0.0, {}));
     candidates.allow_twice_as_many();
@@ -358,8 +358,8 @@ TEST(CandidatePairs, AreManyIfMoreThanHalfAsManyAsAllowed) {
     limited.look(kRadius, 0.0, {});
     return limited.are_many();
   };
-  EXPECT_TRUE(are_many(2 * set.count() - 2));
-  EXPECT_FALSE(are_many(2 * set.count()));
+  EXPECT_TRUE(are_many(2 * set.pair_and_box_count() - 2));
+  EXPECT_FALSE(are_many(2 * set.pair_and_box_count()));
 }
 
 // The planes of a search that finds very many pairs are made to last for the step in which its answer is first needed.
