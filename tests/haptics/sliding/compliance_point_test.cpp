@@ -112,11 +112,12 @@ TEST(CompliancePoint, OfAHoldKeepsThePartOutOfWallsWhereverItIs) {
     sliding.release(0);
     sliding.grasp(0, sliding.result(0).X_WV, 0.5 * vector());
     const Isometry3d X_WG_end = at(0.05 + 0.03 * uniform(random)) * geometry::rotation_by(vector());
-    const geometry::Displacement way = geometry::displacement_between(sliding.result(0).X_WG, X_WG_end, {});
+    const geometry::Displacement way =
+        geometry::displacement_between(sliding.result(0).X_WG, X_WG_end, Vector3d::Zero());
     const Isometry3d X_WG_start = sliding.result(0).X_WG;
     for (int i = 1; i <= 200; ++i) {
       const Isometry3d X_WV = sliding.result(0).X_WV;
-      sliding.advance(std::vector{geometry::displaced(X_WG_start, {}, way.scaled(i / 200.0))});
+      sliding.advance(std::vector{geometry::displaced(X_WG_start, Vector3d::Zero(), way.scaled(i / 200.0))});
       touches = touches || sliding.result(0).pushing > 0;
       ASSERT_FALSE(check.collides(*mesh, sliding.result(0).X_WV)) << "seed " << kSeed << ", hold " << hold << ", " << i;
       const geometry::Displacement step =
