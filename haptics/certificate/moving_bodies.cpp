@@ -94,8 +94,9 @@ double MovingBodies::most_curvature() const {
 const Eigen::Isometry3d& MovingBodies::pose(std::int32_t body, int moment) {
   if (!is_mover(body)) return scene_.bodies()[static_cast<std::size_t>(body)].X_WB;
   Path& moving = path(body);
+  if (!moving.moves) return moving.X_WB_at[0];
   const auto m = static_cast<std::size_t>(moment);
-  if (!moving.known[m] && motion_ != nullptr && moving.moves) follow_motion(m);
+  if (!moving.known[m] && motion_ != nullptr) follow_motion(m);
   if (!moving.known[m]) {
     const double t = static_cast<double>(moment) / kMoments;
     moving.X_WB_at[m] = geometry::displaced(moving.X_WB_at[0], moving.p_Bref, moving.displacement.scaled(t));

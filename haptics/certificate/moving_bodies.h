@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/assert.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/triangle_pair.h>
 #include <glissade/haptics/bodies_motion.h>
@@ -46,7 +47,10 @@ class MovingBodies {
   /// The point comes no farther than `farthest` (metres) from the body's reference point.
   double curvature_seen_from(std::int32_t body, double farthest) const;
   /// The reference point of a mover, about which its displacement turns it, at a moment; only if it moves.
-  Eigen::Vector3d reference_point_W(std::int32_t body, int moment) { return pose(body, moment) * path(body).p_Bref; }
+  Eigen::Vector3d reference_point_W(std::int32_t body, int moment) {
+    GLISSADE_ASSERT(moves(body));
+    return pose(body, moment) * path(body).p_Bref;
+  }
 
   /// Bound (metres) of the sum of `curvature` for any two bodies in the whole step.
   double most_curvature() const;
@@ -62,7 +66,7 @@ class MovingBodies {
  private:
   /// B is the frame of the mover.
   struct Path {
-    Eigen::Vector3d p_Bref;  ///< the reference point of the part with which the mover moves
+    Eigen::Vector3d p_Bref = Eigen::Vector3d::Zero();  ///< the reference point of the part with which the mover moves
     geometry::Displacement displacement;
     bool moves = false;
     double motion = 0.0;
