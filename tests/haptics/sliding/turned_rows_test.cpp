@@ -31,41 +31,53 @@ constexpr double kReachOfTurns = 1e-3;     // metres
 constexpr double kRadiusOfBalls = 0.02;    // metres
 constexpr double kRoundingOfTurns = 1e-9;  // metres, or of a unit vector
 
-/// A coarse ball that stands, and two that are held close to it and to each other.
-SimulatedParts three_balls(const std::vector<Isometry3d>& X_WV) {
-  const geometry::TriangleMesh ball = geometry::make_sphere(kRadiusOfBalls, 150);
-  return {{test_support::obstacle_of(ball)},
-          {{.part_V = test_support::part_of(ball), .X_WV_start = X_WV[0]},
-           {.part_V = test_support::part_of(ball), .X_WV_start = X_WV[1]}},
-          {},
-          {}};
-}
-
-std::vector<Isometry3d> random_places(RandomNumbers& random) {
-  const double apart = 2.0 * kRadiusOfBalls + random.uniform(0.0, 0.3e-3);
+/// Of the balls that move.
+struct Places {
   std::vector<Isometry3d> X_WV;
-  for (const Vector3d& direction : {Vector3d(1.0, 0.0, 0.0), Vector3d(0.5, std::sqrt(0.75), 0.0)})
-    X_WV.push_back(
-        test_support::pose(apart * direction, test_support::turn(random.uniform(0.0, 3.0), random.direction())));
-  return X_WV;
+  Isometry3d X_WRider;
+};
+
+Isometry3d random_place(const Vector3d& direction, double least_gap, double most_gap, RandomNumbers& random) {
+  return test_support::pose((2.0 * kRadiusOfBalls + random.uniform(least_gap, most_gap)) * direction,
+                            test_support::turn(random.uniform(0.0, 3.0), random.direction()));
 }
 
-/// The contacts within reach, and their rows.
+Places random_places(RandomNumbers& random) {
+  const Vector3d direction(1.0, 0.0, 0.0);
+  const Vector3d beside(0.5, std::sqrt(0.75), 0.0);
+  // The rider goes farther than the part to which it is attached.
+  return {{random_place(direction, 0.0, 0.3e-3, random), random_place(beside, 0.0, 0.3e-3, random)},
+          random_place(-direction, 0.1e-3, 0.4e-3, random)};
+}
+
+/// The contacts within reach, and their rows, of a coarse ball that stands, of two parts that are held close to it and
+/// to each other, and of a rider of the first part on the ball's other side.
 struct RowsAtPoses {
-  explicit RowsAtPoses(const std::vector<Isometry3d>& X_WV) : shared(three_balls(X_WV)), rows(shared) {
-    shared.candidates.look(kReachOfTurns, 0.0, {});
+  explicit RowsAtPoses(const Places& places) : shared(balls(places)), rows(shared) {
+    shared.riders.place(0, std::vector{places.X_WRider});
+    shared.riders.attach(0, 0);
+    shared.candidates.look(kReachOfTurns, 0.0, shared.riders.inert_pairs());
     WorkBudget unlimited;
     rows.find(kReachOfTurns, kReachOfTurns, unlimited);
+  }
+
+  static SimulatedParts balls(const Places& places) {
+    const geometry::TriangleMesh ball = geometry::make_sphere(kRadiusOfBalls, 150);
+    return {{test_support::obstacle_of(ball)},
+            {{.part_V = test_support::part_of(ball), .X_WV_start = places.X_WV[0]},
+             {.part_V = test_support::part_of(ball), .X_WV_start = places.X_WV[1]}},
+            {{.bodies = {test_support::part_of(ball)}}},
+            {}};
   }
 
   SimulatedParts shared;
   ContactRows rows;
 };
 
-using ContactFeatures = std::tuple<ContactKind, std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
+using ContactFeatures = std::tuple<ContactKind, std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::int32_t>;
 
 ContactFeatures features_of(const Contact& contact) {
-  return {contact.kind, contact.part, contact.part_feature, contact.obstacle, contact.obstacle_feature};
+  return {contact.kind, contact.part, contact.rider, contact.part_feature, contact.obstacle, contact.obstacle_feature};
 }
 
 TEST(TurnedRows, AreThoseOfTheContactsThatAreFoundThere) {
@@ -74,18 +86,20 @@ TEST(TurnedRows, AreThoseOfTheContactsThatAreFoundThere) {
   RandomNumbers random(kSeed);
   std::map<ContactKind, int> compared;
   int of_two_parts = 0;
+  int of_riders = 0;
   int parallel = 0;
-  for (int trial = 0; trial < 60; ++trial) {
+  for (int trial = 0; trial < 120; ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
-    const std::vector<Isometry3d> X_WV = random_places(random);
-    RowsAtPoses before(X_WV);
+    const Places places = random_places(random);
+    RowsAtPoses before(places);
     Displacements d{};
-    std::vector<Isometry3d> X_WV_after;
-    for (std::size_t p = 0; p < X_WV.size(); ++p) {
+    Places places_after = places;
+    for (std::size_t p = 0; p < places.X_WV.size(); ++p) {
       d[p] = {random.uniform(0.0, 0.1e-3) * random.direction(), random.uniform(0.0, 5e-3) * random.direction()};
-      X_WV_after.push_back(geometry::displaced(X_WV[p], before.shared.states[p].p_Vref, d[p]));
+      places_after.X_WV[p] = geometry::displaced(places.X_WV[p], before.shared.states[p].p_Vref, d[p]);
     }
-    RowsAtPoses after(X_WV_after);
+    places_after.X_WRider = places_after.X_WV[0] * places.X_WV[0].inverse() * places.X_WRider;
+    RowsAtPoses after(places_after);
 
     TurnedRows turned(before.shared);
     const auto rows = turned.find(d, before.rows.rows(), before.rows.contacts());
@@ -110,12 +124,14 @@ TEST(TurnedRows, AreThoseOfTheContactsThatAreFoundThere) {
       EXPECT_NEAR(rows[i].bound, gap_demanded - there->gap, kRoundingOfTurns);
       ++compared[contact.kind];
       of_two_parts += rows[i].other >= 0 ? 1 : 0;
+      of_riders += contact.rider >= 0 ? 1 : 0;
     }
   }
   EXPECT_GT(compared[ContactKind::kVertexFace], 10);
   EXPECT_GT(compared[ContactKind::kFaceVertex], 10);
   EXPECT_GT(compared[ContactKind::kEdgeEdge], 10);
   EXPECT_GT(of_two_parts, 10);
+  EXPECT_GT(of_riders, 10);
   EXPECT_LT(parallel, compared[ContactKind::kEdgeEdge] / 2);
 }
 
