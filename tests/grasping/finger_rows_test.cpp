@@ -15,6 +15,7 @@
 
 #include "clasped_hand.h"
 #include "poses.h"
+#include "sanitizers.h"
 
 namespace glissade::grasping {
 namespace {
@@ -60,7 +61,8 @@ class PressedPalm : public testing::Test {
     return forces.update(angles, answer);
   }
 
-  ClaspedHand hand_{geometry::make_sphere(0.035, 100'000), at(0.08, 0.0, -0.055)};
+  static constexpr int kTriangles = test_support::kSanitized ? 70'000 : 100'000;
+  ClaspedHand hand_{geometry::make_sphere(0.035, kTriangles), at(0.08, 0.0, -0.055)};
   Posture target_;
 };
 
