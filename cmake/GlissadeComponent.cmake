@@ -76,13 +76,10 @@ endfunction()
 # glissade_compile_for_instruction_sets(TARGET): the vector code. SSSE3 adds nothing to SSE4 here, nor the newest AVX-512
 # to the first; vectors of unknown length do not fit code for sixteen pairs. EMU128 is plain C++ in vectors of 16 bytes.
 # Highway leaves it out before g++ 12.3 for a fault of the compiler; what we use of it is compared with the other
-# instruction sets by the tests of the kernels. GLISSADE_BEST_AND_PLAIN_ONLY leaves out what lies between the best
-# instruction set and plain C++.
+# instruction sets by the tests of the kernels. GLISSADE_WITHOUT_INSTRUCTION_SETS leaves out more.
 function(glissade_compile_for_instruction_sets target)
-  set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128 HWY_RVV)
-  if(GLISSADE_BEST_AND_PLAIN_ONLY)
-    list(APPEND left_out HWY_SSE4 HWY_AVX2)
-  endif()
+  set(left_out HWY_SSSE3 HWY_AVX3_DL HWY_SVE HWY_SVE2 HWY_SVE_256 HWY_SVE2_128 HWY_RVV
+    ${GLISSADE_WITHOUT_INSTRUCTION_SETS})
   list(JOIN left_out "|" left_out)
   target_compile_definitions(${target} PRIVATE HWY_BROKEN_EMU128=0 "HWY_DISABLED_TARGETS=(${left_out})")
 endfunction()

@@ -6,7 +6,7 @@ find_package(GTest REQUIRED)
 function(glissade_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
     -Wnon-virtual-dtor -Woverloaded-virtual -Wold-style-cast -Wcast-align -Wdouble-promotion -Wimplicit-fallthrough
-    -Wno-missing-field-initializers)  # members have defaults; designated initialisers need not repeat them
+    -Wno-missing-field-initializers)  # designated initialisers name only the members that they set
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
     # g++ 12 sees overlapping copies in any inlined `"literal" + std::string` (GCC bug 105651).
     target_compile_options(${target} PRIVATE -Wno-restrict)
