@@ -185,7 +185,8 @@ class Torturer {
 class ClaspTorture : public testing::TestWithParam<std::size_t> {};
 
 TEST_P(ClaspTorture, NothingCollidesAndNoFlexValueStopsTooEarly) {
-  if (test_support::kSanitized && GetParam() % 14 != 0) GTEST_SKIP() << "takes long; others run through the same code";
+  if (test_support::kSanitized && GetParam() != 0 && GetParam() != 7)
+    GTEST_SKIP() << "takes long; others run through the same code";
   const shapes::HouseholdObject& object = shapes::household_objects()[GetParam()];
   const std::uint64_t seed = 1001 * (GetParam() + 1);
   const int least = postures_in_total() / static_cast<int>(shapes::household_objects().size());
