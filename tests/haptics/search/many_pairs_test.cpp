@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/displacement.h>
@@ -21,7 +22,7 @@ using Eigen::Vector3d;
 using test_support::pairs_to_certify_within;
 
 /// A ball of this radius (metres), with a play of 0.1 mm.
-ContactScene ball_in_socket(double radius) {
+ContactScene ball_with_play(double radius) {
   return {{test_support::obstacle_of(geometry::make_sphere(radius + 0.1e-3, 4000))},
           {test_support::part_of(geometry::make_sphere(radius, 4000))},
           std::vector<double>{1e-6}};
@@ -29,7 +30,7 @@ ContactScene ball_in_socket(double radius) {
 
 class ManyPairs : public testing::Test {
  protected:
-  explicit ManyPairs(double radius = 0.01) : scene_(ball_in_socket(radius)) {}
+  explicit ManyPairs(double radius = 0.01) : scene_(ball_with_play(radius)) {}
 
   std::size_t count_within(double radius) {
     CandidatePairs candidates(scene_, greatest_radius_m_);
