@@ -1,7 +1,6 @@
-# What only a developer of Glissade needs: warnings, and the libraries of the program, the tests and the benchmarks.
+# What only this tree needs: warnings, the libraries of the program, and ways to compile less.
 find_package(CLI11 REQUIRED)
 find_package(yaml-cpp REQUIRED)
-find_package(GTest REQUIRED)
 
 function(glissade_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion
@@ -33,16 +32,11 @@ function(glissade_precompile target)
   endif()
 endfunction()
 
-# glissade_compile_in_bulk(TARGET [EXCEPT sources...]): the target's other sources as a few large files. Tests and the
-# program always call it, which saves minutes in a whole build; whoever else does asks for GLISSADE_COMPILE_IN_BULK
-# first, under which the files are larger.
+# glissade_compile_in_bulk(TARGET [EXCEPT sources...]): the target's other sources as a few large files. A whole build then
+# takes a third of the time. GLISSADE_COMPILE_IN_BULK=OFF compiles each source by itself.
 function(glissade_compile_in_bulk target)
   cmake_parse_arguments(ARG "" "" "EXCEPT" ${ARGN})
-  set(batch 16)
-  if(GLISSADE_COMPILE_IN_BULK)
-    set(batch 32)
-  endif()
-  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch})
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ${GLISSADE_COMPILE_IN_BULK} UNITY_BUILD_BATCH_SIZE 32)
   if(ARG_EXCEPT)
     set_source_files_properties(${ARG_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
@@ -50,3 +44,14 @@ function(glissade_compile_in_bulk target)
   target_compile_options(${target} PRIVATE -Wno-shadow
     $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
 endfunction()
+
+# What all components with Eigen precompile, once.
+add_library(glissade_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled.cpp)
+target_link_libraries(glissade_precompiled PRIVATE Eigen3::Eigen)
+target_compile_features(glissade_precompiled PRIVATE cxx_std_20)
+target_compile_options(glissade_precompiled PRIVATE -ffp-contract=off $<$<CONFIG:Release>:-O2>)
+set_target_properties(glissade_precompiled PROPERTIES POSITION_INDEPENDENT_CODE ON)
+glissade_set_warnings(glissade_precompiled)
+glissade_precompile(glissade_precompiled PRIVATE
+  <algorithm> <array> <chrono> <cmath> <cstdint> <functional> <memory> <optional> <span> <stdexcept> <string> <utility>
+  <vector> <Eigen/Geometry>)

@@ -1,0 +1,1 @@
+// Nothing: the target needs a source, beside the headers that it precompiles.

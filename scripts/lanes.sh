@@ -1,0 +1,22 @@
+# Sourced by .ci/run and scripts/check_deep: lanes, i.e. checks that run one after the other.
+
+lane_seconds=()  # "SECONDS NAME" of each lane that passed
+
+# lane NAME COMMAND...: runs the command, and ends the whole run if it fails.
+lane() {
+  local name=$1
+  shift
+  printf '\n==== %s: %s\n' "$name" "$*"
+  local start=$SECONDS
+  "$@" || { printf '==== %s: FAILED after %d s\n' "$name" "$((SECONDS - start))"; exit 1; }
+  printf '==== %s: passed after %d s\n' "$name" "$((SECONDS - start))"
+  lane_seconds+=("$((SECONDS - start)) $name")
+}
+
+# What the run has cost: the seconds of each lane, the slowest objects and tests.
+report_lanes() {
+  printf '\n==== lanes\n'
+  printf '%6d s  %s\n' $(printf '%s\n' "${lane_seconds[@]}")
+  ./scripts/slowest
+  printf '\n==== all lanes passed after %d s\n' "$SECONDS"
+}
