@@ -161,7 +161,7 @@ HullSubject fcl_hulls() {
 }
 
 HullSubject bullet_hulls() {
-  return {"bullet", [](const HullModel& model) { return std::make_unique<BulletHulls>(model.hull); }, true};
+  return {"bullet", [](const HullModel& model) { return std::make_unique<BulletHulls>(model.hull); }};
 }
 
 }  // namespace glissade::bench
