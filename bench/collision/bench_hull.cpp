@@ -104,7 +104,7 @@ std::vector<bool> exact_answers(const ConvexHull& hull, const Poses& poses) {
 }
 
 int count_wrong(HullQuery& query, const Poses& poses, const std::vector<bool>& expected) {
-  query.start();
+  query.forget();
   return std::inner_product(
       poses.begin(), poses.end(), expected.begin(), 0, std::plus<>(),
       [&](const Isometry3d& X_AB, bool expects) { return query.intersects(X_AB) == expects ? 0 : 1; });

@@ -36,7 +36,7 @@ void register_zachmann(const Suite& suite) {
     const bool with_directions = mesh.is_typical;
     register_queries(query_case, join({fast_subjects(true), glissade_as_published(),
                                        with_directions ? glissade_directions() : std::vector<Subject>{}}));
-    register_sample(query_case, kZachmannDistances, suite.quick ? 1 : 2, sample_subjects());
+    register_sample(query_case, kZachmannDistances, suite.quick ? 10 : 20, sample_subjects());
   }
   const auto spheres = lazy([] { return MeshPair(geometry::make_sphere(1.0, kFarTriangles)); });
   register_queries({"zachmann/far-spheres", spheres, lazy_poses(spheres, far_poses)},

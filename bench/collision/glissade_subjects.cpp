@@ -28,8 +28,8 @@ class GlissadeQuery : public Query {
   GlissadeQuery(const Model& model_A, const Model& model_B, InstructionSet set)
       : tree_A_(tree_of(model_A)), tree_B_(tree_of(model_B)), instruction_set_(set) {}
 
-  void start() override {
-    collision::use_instruction_set(instruction_set_);
+  void prepare() override { collision::use_instruction_set(instruction_set_); }
+  void forget() override {
     if constexpr (requires { workspace_.forget(); }) workspace_.forget();
   }
   bool intersects(const Isometry3d& X_AB) override { return collision::intersects(tree_A_, tree_B_, X_AB, workspace_); }

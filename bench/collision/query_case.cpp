@@ -26,7 +26,7 @@ double answer(Query& query, const Isometry3d& X_AB, Operation operation) {
 void warm_up(Query& query, const Poses& poses, Operation operation) {
   using Clock = std::chrono::steady_clock;
   const Clock::time_point end = Clock::now() + std::chrono::milliseconds(2);
-  query.start();
+  query.prepare();
   for (auto X_AB = poses.begin(); X_AB != poses.end() && Clock::now() < end; ++X_AB)
     answer(query, *X_AB, operation);
 }
@@ -35,7 +35,8 @@ void warm_up(Query& query, const Poses& poses, Operation operation) {
 class Contestant {
  public:
   Contestant(const QueryCase& query_case, const Subject& subject) : query_((*query_case.meshes)->query(subject)) {
-    query_->start();
+    query_->prepare();
+    query_->forget();
     for (const Isometry3d& X_AB : **query_case.poses) {
       answers_.push_back(answer(*query_, X_AB, query_case.operation));
       const std::optional<QueryCounters> counters = query_->counters();
@@ -100,7 +101,7 @@ std::shared_ptr<Lazy<Poses>> lazy_poses(const std::shared_ptr<Lazy<MeshPair>>& m
 void measure_passes(State& state, Query& query, const Poses& poses, Operation operation) {
   warm_up(query, poses, operation);
   for (auto _ : state) {
-    query.start();
+    query.forget();
     for (const Isometry3d& X_AB : poses)
       benchmark::DoNotOptimize(answer(query, X_AB, operation));
   }
@@ -122,11 +123,11 @@ void register_sample(QueryCase query_case, std::size_t series, std::size_t count
   query_case.name += "-sample";
   query_case.poses = lazy([poses = query_case.poses, series, count] {
     const Poses& all = **poses;
-    const std::size_t every = std::max<std::size_t>(1, all.size() / series / count);
     Poses sample;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if ((i / series) % every == 0 && sample.size() < series * count) sample.push_back(all[i]);
-    }
+    const std::size_t of_series = all.size() / series;
+    const std::size_t taken = std::min(count, of_series);
+    for (std::size_t i = 0; i < taken; ++i)
+      sample.push_back(all[i * of_series / taken * series + i % series]);
     return sample;
   });
   register_queries(query_case, subjects);

@@ -37,7 +37,8 @@ std::shared_ptr<Lazy<Poses>> lazy_poses(const std::shared_ptr<Lazy<MeshPair>>& m
 /// `triangles` of mesh A and `poses`. A case for which no poses are found is skipped.
 void register_queries(const QueryCase& query_case, const std::vector<Subject>& subjects);
 
-/// The same for the case `NAME-sample`: `count` series of `series` poses each, from all over the poses.
+/// The same for the case `NAME-sample`: `count` poses from all over the poses, which are series of `series` poses. One
+/// series gives its first pose, the next its second, and so on.
 void register_sample(QueryCase query_case, std::size_t series, std::size_t count, const std::vector<Subject>& subjects);
 
 /// Measures passes over the poses, once caches hold the model of this subject again. Sets the counter `query`.

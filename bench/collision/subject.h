@@ -27,8 +27,10 @@ class Query {
  public:
   virtual ~Query() = default;
 
-  /// Called before each pass over the poses: clears memory of earlier queries and applies global settings.
-  virtual void start() {}
+  /// Applies global settings. Called before passes over the poses, and not measured.
+  virtual void prepare() {}
+  /// Clears memory of earlier queries. Called before each pass.
+  virtual void forget() {}
   /// X_AB is the pose of B in the frame of A.
   virtual bool intersects(const Eigen::Isometry3d& X_AB) = 0;
   /// Number of intersecting pairs of triangles. The library must identify the pairs.
