@@ -22,7 +22,7 @@ void register_close(const Suite& suite) {
     for (const RelativeGap& gap : kRelativeGaps) {
       const QueryCase query_case{"close/" + mesh.name + "-" + gap.name, mesh.pair,
                                  lazy_poses(mesh.pair, poses_at(gap.share * kSize, count))};
-      register_queries(query_case, fast_subjects(mesh.is_typical));
+      register_queries(query_case, fast_subjects(false));
       if (mesh.is_typical) register_sample(query_case, 1, suite.quick ? 5 : 20, sample_subjects());
     }
   }

@@ -36,7 +36,7 @@ void register_scene(const Suite& suite) {
       return lazy([=] { return film(objects_in_box((*cast)->radii(), count, kFilled, kSeed), frames); });
     };
     const std::string name = "scene/through-" + std::to_string(count);
-    register_scenes({name, cast, through(frames_for(count, suite.quick))}, {glissade_scenes(1), fcl_scenes()});
+    register_scenes({name, cast, through(frames_for(count, suite.quick) / 4)}, {glissade_scenes(1), fcl_scenes()});
     register_scenes({name + "-sample", cast, through(kSampleFrames)},
                     {glissade_scenes(1), ode_scenes(), bullet_scenes()});
   }
