@@ -39,8 +39,9 @@ def check_benchmarks(benchmarks, expected):
         name = benchmark["name"]
         check(not benchmark.get("error_occurred"), f"{name}: {benchmark.get('error_message')}")
         subject = name.split("/")[2]
+        is_ours = subject.startswith("glissade") and subject != "glissade-paper"  # the paper's method promises nothing
         for fault in FAULTS:
-            if subject.startswith("glissade") or (subject.startswith("fcl") and fault == "disagreements"):
+            if is_ours or (subject.startswith("fcl") and fault == "disagreements"):
                 check(benchmark.get(fault, 0) == 0, f"{name}: {fault} {benchmark.get(fault)}")
 
 
