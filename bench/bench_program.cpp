@@ -22,6 +22,14 @@ constexpr const char* kFooter =
     "scripts/bench builds and runs the benchmark programs. Exit code: 0 on success, 1 if a run fails, 2 for wrong "
     "usage.";
 
+// What benchmarks share ends with them, before the static objects of other libraries.
+struct RegisteredBenches {
+  RegisteredBenches() = default;
+  ~RegisteredBenches() { benchmark::ClearRegisteredBenchmarks(); }
+  RegisteredBenches(const RegisteredBenches&) = delete;
+  RegisteredBenches& operator=(const RegisteredBenches&) = delete;
+};
+
 int parse_and_run(int argc, char** argv, const char* description, const RegisterBenches& register_benches) {
   BenchOptions options;
   CLI::App app{description, std::filesystem::path(argv[0]).filename().string()};
@@ -41,13 +49,16 @@ int parse_and_run(int argc, char** argv, const char* description, const Register
   } catch (const CLI::ParseError& error) {
     throw std::invalid_argument(error.what());
   }
+  // Unless the user wants another: repetitions take turns, so each may be short.
+  std::string min_time = options.quick ? "--benchmark_min_time=0.01" : "--benchmark_min_time=0.05";
   std::vector<std::string> others = app.remaining();
-  std::vector<char*> arguments{argv[0]};
+  std::vector<char*> arguments{argv[0], min_time.data()};
   for (std::string& other : others)
     arguments.push_back(other.data());
   int count = static_cast<int>(arguments.size());
   benchmark::Initialize(&count, arguments.data());
   if (count > 1) throw std::invalid_argument("unknown option " + std::string(arguments[1]));
+  const RegisteredBenches registered;
   register_benches(options);
   if (benchmark::RunSpecifiedBenchmarks() == 0) throw std::invalid_argument("no benchmark matches the filter");
   benchmark::Shutdown();

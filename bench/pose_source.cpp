@@ -77,9 +77,10 @@ std::optional<double> PoseSource::approach(const Matrix3d& R_AB, const Vector3d&
   if (!close_at(close)) {  // B may fit into A: it is close to A's shell only
     constexpr double kStep = 0.01;
     const double outside = apart;
-    for (close = outside; !close_at(close); close -= kStep * outside) {
-      if (close < 0.0) return std::nullopt;
+    for (close = outside; !close_at(close);) {
       apart = close;
+      close -= kStep * outside;
+      if (close < 0.0) return std::nullopt;  // before it is close to the shell beyond the centre
     }
   }
   while (apart - close > 1e-10 * apart) {

@@ -1,7 +1,4 @@
-// See `run_coherent` in benches.h.
-
-#include <memory>
-#include <numbers>
+// See `register_coherent` in benches.h.
 
 #include "benches.h"
 #include "query_case.h"
@@ -12,41 +9,28 @@ namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using geometry::TriangleMesh;
 
-constexpr const char* kCoherentName = "coherent";
-constexpr double kPartSize = 0.1;
-constexpr SlidingStep kStep{.length = 1e-5, .angle = 0.005 * std::numbers::pi / 180.0};
-
-const std::vector<SlidingPhase> kPhases{{"gap-1%", 0.01 * kPartSize},
-                                        {"gap-0.5%", 0.005 * kPartSize},
-                                        {"gap-0.1%", 0.001 * kPartSize},
+const std::vector<SlidingPhase> kPhases{{"gap-1%", 0.01 * kSize},
+                                        {"gap-0.5%", 0.005 * kSize},
+                                        {"gap-0.1%", 0.001 * kSize},
                                         {"touching", 0.0},
-                                        {"colliding", -0.01 * kPartSize}};
+                                        {"colliding", -0.01 * kSize}};
 
 }  // namespace
 
-void run_coherent(const BenchOptions& options, Results& results) {
-  const std::size_t frames = options.quick ? 200 : 1000;
-  std::vector<std::string> names;
-  for (const SlidingPhase& phase : kPhases)
-    names.emplace_back(phase.name);
-  for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, {options.suite.coherent_triangles}, kPartSize)) {
-    const auto mesh = std::make_shared<const geometry::TriangleMesh>(suite_mesh.make());
-    const DopTree tree(mesh);
-    run_query_case({.bench = kCoherentName,
-                    .name = suite_mesh.name,
-                    .mesh_A = *mesh,
-                    .mesh_B = *mesh,
-                    .poses = sliding_walk(tree, tree, kPhases, frames, kStep, options.seed),
-                    .part_names = names},
-                   join({{glissade_subject(), glissade_coherent()},
-                         glissade_instruction_sets(),
-                         glissade_coherent_instruction_sets(),
-                         {fcl_subject()}}),
-                   pass_limits(options), results);
+void register_coherent(const Suite& suite) {
+  const std::size_t frames = suite.quick ? 200 : 1000;
+  for (const SuiteMesh& mesh : suite.meshes) {
+    if (!mesh.is_typical) continue;
+    const auto walk = lazy([pair = mesh.pair, frames] {
+      const DopTree tree((*pair)->mesh_A);
+      return sliding_walk(tree, tree, kPhases, frames, kSmallStep, kSeed);
+    });
+    for (std::size_t i = 0; i < kPhases.size(); ++i) {
+      register_queries({"coherent/" + mesh.name + "-" + kPhases[i].name, mesh.pair, lazy([=] { return (**walk)[i]; })},
+                       {glissade_subject(), glissade_coherent(), fcl_subject()});
+    }
   }
-  results.add_ratios(kCoherentName, kPeers);
 }
 
 }  // namespace glissade::bench

@@ -1,8 +1,8 @@
-// See `run_hull` in benches.h.
+// See `register_hull` in benches.h.
 
-#include <cstdio>
 #include <memory>
 #include <numbers>
+#include <numeric>
 #include <stdexcept>
 
 #include <glissade/geometry/mesh_generators.h>
@@ -10,6 +10,8 @@
 #include "benches.h"
 #include "hull_oracle.h"
 #include "hull_subjects.h"
+#include "query_case.h"
+#include "register_bench.h"
 
 namespace glissade::bench {
 namespace {
@@ -19,10 +21,8 @@ using collision::HullMemory;
 using collision::HullTest;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
-using Poses = std::vector<Isometry3d>;
 
-constexpr const char* kHullName = "hull";
-const std::vector<std::string> kHullPeers{"libccd", "libccd-mpr", "fcl", "bullet"};
+constexpr std::size_t kSteps = 200;
 
 struct Shape {
   const char* name;
@@ -33,19 +33,15 @@ const std::vector<Shape> kShapes{{"sphere", {0.5, 0.5, 0.5}}, {"ellipsoid", {0.5
 struct Gap {
   const char* name;
   double size;  // metres; also a fraction of the size, which is 1 m
-  const char* group;
 };
-const std::vector<Gap> kGaps{{"gap-1e-2", 1e-2, "separated"},
-                             {"gap-1e-4", 1e-4, "separated"},
-                             {"gap-1e-6", 1e-6, "touching"},
-                             {"depth-1e-3", -1e-3, "penetrating"}};
+const std::vector<Gap> kGaps{{"gap-1e-2", 1e-2}, {"gap-1e-4", 1e-4}, {"gap-1e-6", 1e-6}, {"depth-1e-3", -1e-3}};
+constexpr double kGapOfAllPaces = 1e-4;  // the other gaps are measured at the slowest pace
 
 struct Pace {
   const char* name;
   double degrees;
 };
 const std::vector<Pace> kPaces{{"0.05deg", 0.05}, {"0.5deg", 0.5}, {"5deg", 5.0}};
-constexpr const char* kSlowest = "0.05deg";
 
 HullModel make_model(const Shape& shape, std::int64_t vertices) {
   geometry::TriangleMesh mesh = geometry::make_sphere(1.0, 2 * vertices);
@@ -71,16 +67,17 @@ void approach(const ConvexHull& hull, Isometry3d& X_AB, HullMemory& memory) {
 
 // B turns about itself and circles A, at the same pace about different axes. At each step its distance along the normal
 // of contact is `gap`.
-Poses walk(const ConvexHull& hull, double gap, double degrees, int steps) {
+Poses walk(const ConvexHull& hull, double gap, double degrees) {
   const double angle = degrees * std::numbers::pi / 180.0;
   const Vector3d spin = Vector3d(1.0, 2.0, 3.0).normalized();
   const Vector3d orbit = Vector3d(0.3, -0.2, 1.0).normalized();
   const Eigen::AngleAxisd first(1.0, Vector3d(0.3, -1.0, 0.2).normalized());
   HullMemory memory;
   Poses poses;
-  for (int step = 0; step < steps; ++step) {
-    Isometry3d X_AB(Eigen::AngleAxisd(step * angle, spin) * first);
-    X_AB.translation() = Eigen::AngleAxisd(step * angle, orbit) * Vector3d(0.8, 0.6, 0.0);
+  while (poses.size() < kSteps) {
+    const double turned = static_cast<double>(poses.size()) * angle;
+    Isometry3d X_AB(Eigen::AngleAxisd(turned, spin) * first);
+    X_AB.translation() = Eigen::AngleAxisd(turned, orbit) * Vector3d(0.8, 0.6, 0.0);
     approach(hull, X_AB, memory);
     X_AB.translation() += gap * memory.n_gap_A;
     poses.push_back(X_AB);
@@ -106,60 +103,61 @@ std::vector<bool> exact_answers(const ConvexHull& hull, const Poses& poses) {
   return answers;
 }
 
-double count_wrong(HullQuery& query, const Poses& poses, const std::vector<bool>& expected) {
-  int wrong = 0;
-  query.start();
-  for (std::size_t i = 0; i < poses.size(); ++i)
-    wrong += query.intersects(poses[i]) == expected[i] ? 0 : 1;
-  return wrong;
+int count_wrong(HullQuery& query, const Poses& poses, const std::vector<bool>& expected) {
+  query.forget();
+  return std::inner_product(
+      poses.begin(), poses.end(), expected.begin(), 0, std::plus<>(),
+      [&](const Isometry3d& X_AB, bool expects) { return query.intersects(X_AB) == expects ? 0 : 1; });
 }
 
-void run_case(const std::string& name, const HullModel& model, const Poses& poses,
-              const std::vector<HullSubject>& subjects, const BenchOptions& options, Results& results) {
-  std::fprintf(stderr, "%s %s\n", kHullName, name.c_str());
-  const std::vector<bool> expected = exact_answers(model.hull, poses);
-  std::vector<std::unique_ptr<HullQuery>> queries;
-  std::vector<Contestant> contestants;
-  for (const HullSubject& subject : subjects) {
-    queries.push_back(subject.query(model));
-    contestants.push_back({queries.back().get(), subject.slow});
-    results.add({kHullName, name, subject.name, "wrong", count_wrong(*queries.back(), poses, expected), "1"});
+// What the subjects of a case share.
+struct HullCase {
+  HullCase(const HullModel& model, double gap, double degrees)
+      : poses(walk(model.hull, gap, degrees)), expected(exact_answers(model.hull, poses)) {}
+
+  Poses poses;
+  std::vector<bool> expected;
+};
+
+// What a subject has in a case.
+struct HullContestant {
+  HullContestant(const HullSubject& subject, const HullModel& model, const HullCase& of_case)
+      : query(subject.query(model)), wrong(count_wrong(*query, of_case.poses, of_case.expected)) {}
+
+  std::unique_ptr<HullQuery> query;
+  int wrong;
+};
+
+void register_hull_case(const std::string& name, const std::shared_ptr<Lazy<HullModel>>& model, double gap,
+                        double degrees) {
+  const auto hull_case = lazy([=] { return HullCase(**model, gap, degrees); });
+  for (const HullSubject& subject :
+       {glissade_hulls("glissade", HullTest::kExact), glissade_hulls("glissade-perceptron", HullTest::kPerceptron),
+        libccd_gjk(), libccd_mpr(), fcl_hulls(), bullet_hulls()}) {
+    const auto contestant = lazy([=] { return HullContestant(subject, **model, **hull_case); });
+    register_bench("hull/" + name + "/" + subject.name, [=](benchmark::State& state) {
+      state.counters["wrong"] = (*contestant)->wrong;
+      measure_passes(state, *(*contestant)->query, (*hull_case)->poses, Operation::kIntersects);
+    });
   }
-  const std::vector<PassTimes> times =
-      interleaved_passes(contestants, {poses}, Operation::kIntersects, pass_limits(options));
-  for (std::size_t i = 0; i < subjects.size(); ++i)
-    results.add({kHullName, name, subjects[i].name, "time", times[i].all_ns, "ns"});
 }
 
 }  // namespace
 
-void run_hull(const BenchOptions& options, Results& results) {
-  const int steps = options.quick ? 200 : 1000;
-  const std::vector<HullSubject> subjects{glissade_hulls("glissade", HullTest::kExact),
-                                          glissade_hulls("glissade-perceptron", HullTest::kPerceptron),
-                                          libccd_gjk(),
-                                          libccd_mpr(),
-                                          fcl_hulls(),
-                                          bullet_hulls()};
+void register_hull(const Suite& suite) {
+  std::vector<std::int64_t> sizes{100, 1'000};
+  if (!suite.quick) sizes.push_back(20'000);
   for (const Shape& shape : kShapes) {
-    for (const std::int64_t size : options.suite.hull_vertices) {
-      const HullModel model = make_model(shape, size);
+    for (const std::int64_t size : sizes) {
+      const auto model = lazy([=] { return make_model(shape, size); });
       for (const Pace& pace : kPaces) {
         for (const Gap& gap : kGaps) {
-          const std::string name =
-              std::string(shape.name) + "-" + std::to_string(size) + "-" + pace.name + "-" + gap.name;
-          run_case(name, model, walk(model.hull, gap.size, pace.degrees, steps), subjects, options, results);
+          if (&pace != &kPaces.front() && gap.size != kGapOfAllPaces) continue;
+          register_hull_case(std::string(shape.name) + "-" + std::to_string(size) + "-" + pace.name + "-" + gap.name,
+                             model, gap.size, pace.degrees);
         }
       }
     }
-  }
-  results.add_ratios(kHullName, kHullPeers);
-  for (const char* group : {"separated", "touching", "penetrating"}) {
-    std::vector<std::string> endings;
-    for (const Gap& gap : kGaps) {
-      if (gap.group == std::string(group)) endings.push_back(std::string(kSlowest) + "-" + gap.name);
-    }
-    results.add_group_ratios(kHullName, group, endings, kHullPeers);
   }
 }
 

@@ -1,52 +1,48 @@
-// See `run_zachmann` in benches.h.
+// See `register_zachmann` in benches.h.
 
 #include <memory>
 
+#include <glissade/geometry/mesh_generators.h>
+
 #include "benches.h"
-#include "pose_source.h"
+#include "pair_poses.h"
 #include "query_case.h"
 #include "subject_lists.h"
-#include "zachmann_poses.h"
 
 namespace glissade::bench {
 namespace {
 
 using collision::DopTree;
-using geometry::TriangleMesh;
 
-constexpr std::int64_t kSweepTriangles = 20'000;  // where the number of directions is varied
+constexpr std::int64_t kFarTriangles = 20'000;
 
-std::vector<Subject> subjects_for(const std::string& mesh_name) {
-  const bool sweep = mesh_name.ends_with("-" + short_count(kSweepTriangles));
-  return join({usual_subjects(), glissade_as_published(), sweep ? glissade_directions() : std::vector<Subject>{}});
+QueryCase zachmann_case(const SuiteMesh& mesh, bool quick) {
+  return {"zachmann/" + mesh.name, mesh.pair, lazy_poses(mesh.pair, zachmann_poses(quick ? 10 : 20))};
 }
 
-void run(const SuiteMesh& suite_mesh, const std::vector<Subject>& subjects, const BenchOptions& options,
-         Results& results) {
-  const auto mesh = std::make_shared<const geometry::TriangleMesh>(suite_mesh.make());
-  const DopTree tree(mesh);
-  PoseSource source(tree, tree, options.seed);
-  run_query_case(
-      {.bench = kZachmannName,
-       .name = suite_mesh.name,
-       .mesh_A = *mesh,
-       .mesh_B = *mesh,
-       .poses = with_sample(zachmann_poses(source, options.quick), kZachmannDistances, options.quick ? 10 : 20)},
-      subjects, pass_limits(options), results);
+Poses far_poses(const DopTree& tree_A, const DopTree& tree_B) {
+  PoseSource source(tree_A, tree_B, kSeed);
+  Poses poses;
+  while (poses.size() < 500)
+    poses.push_back(pose(source.rotation(), 3.0 * source.direction()));
+  return poses;
 }
 
 }  // namespace
 
-PassLimits pass_limits(const BenchOptions& options) {
-  if (options.quick) return {.least = 2, .most = 41, .seconds = 0.1};
-  return {};
-}
-
-void run_zachmann(const BenchOptions& options, Results& results) {
-  for (const SuiteMesh& mesh : suite_meshes(options.suite, options.suite.triangles))
-    run(mesh, subjects_for(mesh.name), options, results);
-  results.add_ratios(kZachmannName, kPeers);
-  run_extremes(options, results);  // not among the ratios
+void register_zachmann(const Suite& suite) {
+  for (const SuiteMesh& mesh : suite.meshes) {
+    const QueryCase query_case = zachmann_case(mesh, suite.quick);
+    const bool with_directions = mesh.is_typical;
+    register_queries(query_case, join({fast_subjects(true), glissade_as_published(),
+                                       with_directions ? glissade_directions() : std::vector<Subject>{}}));
+    register_sample(query_case, kZachmannDistances, suite.quick ? 10 : 20, sample_subjects());
+  }
+  const auto spheres = lazy([] { return MeshPair(geometry::make_sphere(1.0, kFarTriangles)); });
+  register_queries({"zachmann/far-spheres", spheres, lazy_poses(spheres, far_poses)},
+                   join({fast_subjects(false), {ode_subject(), bullet_subject(), cgal_subject()}}));
+  for (const SuiteMesh& mesh : suite.large)
+    register_queries(zachmann_case(mesh, suite.quick), {glissade_subject()});
 }
 
 }  // namespace glissade::bench

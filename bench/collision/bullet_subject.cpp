@@ -70,8 +70,7 @@ Subject bullet_subject() {
           .model = "bullet",
           .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<BulletModel>(mesh); },
           .query = [](const Model& model_A,
-                      const Model& model_B) { return std::make_unique<BulletQuery>(model_A, model_B); },
-          .slow = true};
+                      const Model& model_B) { return std::make_unique<BulletQuery>(model_A, model_B); }};
 }
 
 }  // namespace glissade::bench

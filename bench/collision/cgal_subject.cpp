@@ -67,12 +67,11 @@ class CgalQuery : public Query {
 }  // namespace
 
 Subject cgal_subject() {
-  return {
-      .name = "cgal",
-      .model = "cgal",
-      .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<CgalModel>(mesh); },
-      .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<CgalQuery>(model_A, model_B); },
-      .slow = true};
+  return {.name = "cgal",
+          .model = "cgal",
+          .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<CgalModel>(mesh); },
+          .query = [](const Model& model_A,
+                      const Model& model_B) { return std::make_unique<CgalQuery>(model_A, model_B); }};
 }
 
 }  // namespace glissade::bench

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "kernels/instruction_set.h"
 #include "subject.h"
 
 namespace glissade::bench {
@@ -27,8 +28,8 @@ class GlissadeQuery : public Query {
   GlissadeQuery(const Model& model_A, const Model& model_B, InstructionSet set)
       : tree_A_(tree_of(model_A)), tree_B_(tree_of(model_B)), instruction_set_(set) {}
 
-  void start() override {
-    collision::use_instruction_set(instruction_set_);
+  void prepare() override { collision::use_instruction_set(instruction_set_); }
+  void forget() override {
     if constexpr (requires { workspace_.forget(); }) workspace_.forget();
   }
   bool intersects(const Isometry3d& X_AB) override { return collision::intersects(tree_A_, tree_B_, X_AB, workspace_); }
@@ -49,10 +50,8 @@ class GlissadeQuery : public Query {
   std::vector<collision::TrianglePair> pairs_;
 };
 
-// The best instruction set of the processor, or the one chosen on the command line.
-InstructionSet& default_instruction_set() {
-  static InstructionSet chosen = collision::available_instruction_sets().front();
-  return chosen;
+InstructionSet best_instruction_set() {
+  return collision::available_instruction_sets().front();
 }
 
 template <typename Workspace = collision::QueryWorkspace>
@@ -68,54 +67,38 @@ Subject make_subject(const std::string& name, const DopTreeOptions& options, Ins
                    const Model& model_B) { return std::make_unique<GlissadeQuery<Workspace>>(model_A, model_B, set); }};
 }
 
-template <typename Workspace>
-std::vector<Subject> on_other_instruction_sets(const std::string& prefix) {
-  std::vector<Subject> subjects;
-  const InstructionSet in_use = default_instruction_set();
-  for (const InstructionSet set : collision::available_instruction_sets()) {
-    if (set != in_use)
-      subjects.push_back(make_subject<Workspace>(prefix + std::string(collision::name_of(set)), {}, set));
-  }
-  return subjects;
-}
-
 }  // namespace
 
-void choose_instruction_set(InstructionSet set) {
-  collision::use_instruction_set(set);
-  default_instruction_set() = set;
-}
-
 Subject glissade_subject() {
-  return make_subject("glissade", {}, default_instruction_set());
+  return make_subject("glissade", {}, best_instruction_set());
 }
 
 Subject glissade_coherent() {
-  return make_subject<collision::CoherentWorkspace>("glissade-coherent", {}, default_instruction_set());
+  return make_subject<collision::CoherentWorkspace>("glissade-coherent", {}, best_instruction_set());
 }
 
 std::vector<Subject> glissade_instruction_sets() {
-  return on_other_instruction_sets<collision::QueryWorkspace>("glissade-");
-}
-
-std::vector<Subject> glissade_coherent_instruction_sets() {
-  return on_other_instruction_sets<collision::CoherentWorkspace>("glissade-coherent-");
+  std::vector<Subject> subjects;
+  for (const InstructionSet set : collision::available_instruction_sets()) {
+    if (set != best_instruction_set())
+      subjects.push_back(make_subject("glissade-" + std::string(collision::name_of(set)), {}, set));
+  }
+  return subjects;
 }
 
 std::vector<Subject> glissade_as_published() {
   const DopTreeOptions affine{.thin_slab = false};
   const DopTreeOptions brute_force{.thin_slab = false, .realignment = collision::Realignment::kBruteForce};
-  return {make_subject("glissade-no-slab", affine, default_instruction_set()),
-          make_subject("glissade-brute-force", brute_force, default_instruction_set())};
+  return {make_subject("glissade-no-slab", affine, best_instruction_set()),
+          make_subject("glissade-brute-force", brute_force, best_instruction_set())};
 }
 
 std::vector<Subject> glissade_directions() {
   std::vector<Subject> subjects;
   for (const int k : {6, 14, 18, 26}) {  // 24 is the default
     const std::string name = "glissade-k" + std::to_string(k);
-    subjects.push_back(make_subject(name, {.directions = k}, default_instruction_set()));
-    subjects.push_back(
-        make_subject(name + "-no-slab", {.directions = k, .thin_slab = false}, default_instruction_set()));
+    subjects.push_back(make_subject(name, {.directions = k}, best_instruction_set()));
+    subjects.push_back(make_subject(name + "-no-slab", {.directions = k, .thin_slab = false}, best_instruction_set()));
   }
   return subjects;
 }

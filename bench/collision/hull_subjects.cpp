@@ -21,7 +21,7 @@ class GlissadeHulls : public HullQuery {
  public:
   GlissadeHulls(const ConvexHull& hull, HullTest test) : hull_(hull), test_(test) {}
 
-  void start() override { memory_ = HullMemory(); }
+  void forget() override { memory_ = HullMemory(); }
   bool intersects(const Isometry3d& X_AB) override {
     return !collision::hulls_apart(hull_, hull_, X_AB, memory_, test_);
   }
@@ -161,7 +161,7 @@ HullSubject fcl_hulls() {
 }
 
 HullSubject bullet_hulls() {
-  return {"bullet", [](const HullModel& model) { return std::make_unique<BulletHulls>(model.hull); }, true};
+  return {"bullet", [](const HullModel& model) { return std::make_unique<BulletHulls>(model.hull); }};
 }
 
 }  // namespace glissade::bench

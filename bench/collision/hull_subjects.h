@@ -32,7 +32,6 @@ class HullQuery : public Query {
 struct HullSubject {
   std::string name;
   std::function<std::unique_ptr<HullQuery>(const HullModel&)> query;
-  bool slow = false;  ///< one pass may be enough
 };
 
 /// `glissade` is the exact test, `glissade-perceptron` the paper's.

@@ -57,8 +57,7 @@ Subject ode_subject() {
       .name = "ode",
       .model = "ode",
       .build = [](const geometry::TriangleMesh& mesh) { return std::make_unique<OdeModel>(mesh); },
-      .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<OdeQuery>(model_A, model_B); },
-      .slow = true};
+      .query = [](const Model& model_A, const Model& model_B) { return std::make_unique<OdeQuery>(model_A, model_B); }};
 }
 
 }  // namespace glissade::bench

@@ -30,7 +30,7 @@ class PqpQuery : public Query {
   PqpQuery(const Model& model_A, const Model& model_B)
       : tree_A_(dynamic_cast<const PqpModel&>(model_A).tree), tree_B_(dynamic_cast<const PqpModel&>(model_B).tree) {}
 
-  void start() override { nearest_ = {0, 0}; }
+  void forget() override { nearest_ = {0, 0}; }
   bool intersects(const Isometry3d& X_AB) override { return pqp::intersects(tree_A_, tree_B_, pqp_pose(X_AB)); }
   std::int64_t count_pairs(const Isometry3d& X_AB) override {
     std::size_t count = pqp::intersecting_pairs(tree_A_, tree_B_, pqp_pose(X_AB), pairs_);

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "suite.h"
+
 namespace glissade::bench {
 namespace {
 
@@ -17,28 +19,23 @@ double radius_of(const geometry::TriangleMesh& mesh) {
 
 }  // namespace
 
-SceneCast::SceneCast(std::vector<SceneLibrary> libraries, const BenchOptions& options)
-    : libraries_(std::move(libraries)) {
-  for (const SuiteMesh& suite_mesh : suite_meshes(options.suite, options.suite.scene_triangles, kObjectSize_m)) {
-    const geometry::TriangleMesh mesh = suite_mesh.make();
-    radii_.push_back(radius_of(mesh));
-    for (const SceneLibrary& library : libraries_) {
-      std::vector<std::unique_ptr<Model>>& models = models_[library.model];
-      if (models.size() < radii_.size()) models.push_back(library.build(mesh));
+SceneCast::SceneCast() {
+  for (const std::int64_t triangles : {1'000, 5'000, 20'000}) {
+    for (geometry::TriangleMesh& mesh : all_shapes(triangles, kObjectSize_m)) {
+      radii_.push_back(radius_of(mesh));
+      meshes_.push_back(std::move(mesh));
     }
   }
 }
 
-std::vector<std::unique_ptr<SceneSubject>> SceneCast::start(const Scene& scene) const {
-  std::vector<std::unique_ptr<SceneSubject>> subjects;
-  for (const SceneLibrary& library : libraries_) {
-    const std::vector<std::unique_ptr<Model>>& models = models_.at(library.model);
-    std::vector<SceneObject> objects;
-    for (const MovedObject& object : first_frame(scene))
-      objects.push_back({models[scene[object.object].model].get(), object.X_WO});
-    subjects.push_back(library.start(objects));
-  }
-  return subjects;
+std::unique_ptr<SceneSubject> SceneCast::start(const SceneLibrary& library, const Scene& scene) {
+  std::vector<std::unique_ptr<Model>>& models = models_[library.model];
+  for (std::size_t i = models.size(); i < meshes_.size(); ++i)
+    models.push_back(library.build(meshes_[i]));
+  std::vector<SceneObject> objects;
+  for (const MovedObject& object : first_frame(scene))
+    objects.push_back({models[scene[object.object].model].get(), object.X_WO});
+  return library.start(objects);
 }
 
 }  // namespace glissade::bench

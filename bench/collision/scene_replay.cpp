@@ -1,17 +1,29 @@
 #include "scene_replay.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <iterator>
-#include <numeric>
+#include <thread>
 #include <utility>
 
-#include "interleaved_passes.h"
+#include "register_bench.h"
 
 namespace glissade::bench {
 namespace {
 
-using Clock = std::chrono::steady_clock;
+using benchmark::State;
+using collision::FrameReport;
+using collision::StageReport;
+
+struct Stage {
+  const char* name;
+  StageReport FrameReport::*report;
+};
+constexpr std::array<Stage, 4> kStages{{{"queue", &FrameReport::queue},
+                                        {"neighbor_finding", &FrameReport::neighbor_finding},
+                                        {"separating_planes", &FrameReport::separating_planes},
+                                        {"exact", &FrameReport::exact}}};
 
 std::vector<NumberPair> in_order(std::vector<NumberPair> pairs) {
   for (NumberPair& pair : pairs) {
@@ -21,130 +33,94 @@ std::vector<NumberPair> in_order(std::vector<NumberPair> pairs) {
   return pairs;
 }
 
-// The progress of one subject through the frames.
-class Player {
- public:
-  Player(const Scene& scene, SceneSubject& subject, const ReplayLimits& limits)
-      : scene_(scene), subject_(subject), limits_(limits) {}
-
-  // A slow subject stops early, after a tenth of its time: it takes the first of these frames only.
-  void run_in() {
-    const double most_us = 1e6 * limits_.seconds / 10.0;
-    double spent_us = step(0);
-    for (int frame = 1; frame < limits_.run_in && spent_us < most_us; ++frame)
-      spent_us += step(frame);
+std::ptrdiff_t differences(const Replay::Meeting& ours, const Replay::Meeting& theirs) {
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 0; i < ours.size(); ++i) {
+    std::vector<NumberPair> in_one;
+    std::set_symmetric_difference(ours[i].begin(), ours[i].end(), theirs[i].begin(), theirs[i].end(),
+                                  std::back_inserter(in_one));
+    count += std::ssize(in_one);
   }
-
-  void take_turn(int first, int end) {
-    for (int frame = first; frame < end && !is_done(); ++frame) {
-      const double us = step(frame);
-      spent_us_ += us;
-      if (frame < first + limits_.warm_up) continue;
-      FrameRecord record{frame, us, in_order(subject_.meeting()), {}};
-      if (subject_.report() != nullptr) record.report = *subject_.report();
-      records_.push_back(std::move(record));
-    }
-  }
-
-  std::vector<FrameRecord> records() && { return std::move(records_); }
-
- private:
-  bool is_done() const { return spent_us_ > 1e6 * limits_.seconds && std::ssize(records_) >= limits_.least; }
-
-  double step(int frame) {
-    moved_objects(scene_, frame, moved_);
-    const Clock::time_point start = Clock::now();
-    subject_.step(moved_);
-    return std::chrono::duration<double, std::micro>(Clock::now() - start).count();
-  }
-
-  const Scene& scene_;
-  SceneSubject& subject_;
-  const ReplayLimits& limits_;
-  std::vector<MovedObject> moved_;
-  std::vector<FrameRecord> records_;
-  double spent_us_ = 0.0;
-};
-
-// Calls visit(record, other) for the frames that both have.
-template <typename Visit>
-void for_common_frames(std::span<const FrameRecord> frames, std::span<const FrameRecord> others, const Visit& visit) {
-  auto other = others.begin();
-  for (const FrameRecord& record : frames) {
-    while (other != others.end() && other->frame < record.frame)
-      ++other;
-    if (other != others.end() && other->frame == record.frame) visit(record, *other);
-  }
+  return count;
 }
 
-std::vector<double> common_times_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
-  std::vector<double> times;
-  for_common_frames(frames, others, [&](const FrameRecord& record, const FrameRecord&) { times.push_back(record.us); });
-  return times;
+// Takes a pass without measuring it, to fill the caches. Subjects without a report do without: they are slow.
+void count_stages(Replay& replay, State& state) {
+  const auto mean = [&, frames = static_cast<double>(replay.film().frames.size())](const std::string& name,
+                                                                                   auto value) {
+    state.counters[name] += static_cast<double>(value) / frames;
+  };
+  replay.pass([&](const SceneSubject& subject) {
+    const FrameReport& report = *subject.report();
+    mean("neighbors", report.neighbors);
+    for (const Stage& stage : kStages) {
+      const StageReport& of_stage = report.*stage.report;
+      mean(std::string(stage.name) + "_in", of_stage.in);
+      mean(std::string(stage.name) + "_out", of_stage.out);
+      mean(std::string(stage.name) + "_us", 1e-3 * static_cast<double>(of_stage.time.count()));
+    }
+  });
+}
+
+void run(State& state, const SceneCase& scene_case, Replay& replay, const Replay& reference) {
+  const auto pause = [&](const SceneSubject&) {
+    state.PauseTiming();
+    std::this_thread::sleep_for(std::chrono::milliseconds(scene_case.pause_ms));
+    state.ResumeTiming();
+  };
+  if (replay.has_report()) count_stages(replay, state);
+  for (auto _ : state) {
+    if (scene_case.pause_ms > 0) {
+      replay.pass(pause);
+    } else {
+      replay.pass([](const SceneSubject&) {});
+    }
+  }
+  const std::size_t frames = replay.film().frames.size();
+  std::size_t meeting = 0;
+  for (const std::vector<NumberPair>& pairs : replay.meeting())
+    meeting += pairs.size();
+  state.counters["frame"] = seconds_each(frames);
+  state.counters["meeting"] = static_cast<double>(meeting) / static_cast<double>(frames);
+  if (&replay != &reference)
+    state.counters["disagreements"] = static_cast<double>(differences(replay.meeting(), reference.meeting()));
 }
 
 }  // namespace
 
-void play(Scene& scene, SceneSubject& referee, int frames) {
+Film film(Scene scene, std::size_t frames) {
+  Film film{std::move(scene), std::vector<std::vector<MovedObject>>(frames)};
+  for (std::size_t i = 0; i < frames; ++i)
+    moved_objects(film.scene, static_cast<int>(i), film.frames[i]);
+  return film;
+}
+
+Film film_with_bounces(Scene scene, std::size_t frames, SceneCast& cast) {
+  const std::unique_ptr<SceneSubject> referee = cast.start(glissade_scenes(1), scene);
   std::vector<MovedObject> moved;
-  for (int frame = 0; frame < frames; ++frame) {
+  for (int frame = 0; frame < static_cast<int>(frames); ++frame) {
     moved_objects(scene, frame, moved);
-    referee.step(moved);
-    for (const auto& [a, b] : in_order(referee.meeting()))
+    referee->step(moved);
+    for (const auto& [a, b] : in_order(referee->meeting()))
       bounce(scene[a], scene[b], frame * kFrame_s);
   }
+  return film(std::move(scene), frames);
 }
 
-std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
-                                             std::span<const std::unique_ptr<SceneSubject>> subjects,
-                                             const ReplayLimits& limits) {
-  std::vector<Player> players;
-  for (const auto& subject : subjects)
-    players.emplace_back(scene, *subject, limits);
-  for (Player& player : players)
-    player.run_in();
-  std::vector<Player*> order;
-  for (Player& player : players)
-    order.push_back(&player);
-  const int end = limits.run_in + limits.frames;
-  for (int first = limits.run_in; first < end; first += limits.turn) {
-    for (Player* const player : order)
-      player->take_turn(first, std::min(first + limits.turn, end));
-    // The first subject finds the shared models out of the cache; the next time another one is first.
-    std::rotate(order.begin(), order.begin() + 1, order.end());
+Replay::Replay(SceneCast& cast, const SceneLibrary& library, const Film& film)
+    : film_(film), subject_(cast.start(library, film.scene)) {
+  pass([this](const SceneSubject& subject) { meeting_.push_back(in_order(subject.meeting())); });
+}
+
+void register_scenes(const SceneCase& scene_case, const std::vector<SceneLibrary>& libraries) {
+  std::shared_ptr<Lazy<Replay>> reference;
+  for (const SceneLibrary& library : libraries) {
+    const auto replay = lazy([=] { return Replay(**scene_case.cast, library, **scene_case.film); });
+    if (!reference) reference = replay;
+    auto* const bench = register_bench(scene_case.name + "/" + library.name,
+                                       [=](State& state) { run(state, scene_case, **replay, **reference); });
+    if (scene_case.is_real_time) bench->UseRealTime();
   }
-  std::vector<std::vector<FrameRecord>> all;
-  for (Player& player : players)
-    all.push_back(std::move(player).records());
-  return all;
-}
-
-double median_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
-  return median(common_times_us(frames, others));
-}
-
-double mean_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
-  const std::vector<double> times = common_times_us(frames, others);
-  return std::accumulate(times.begin(), times.end(), 0.0) / static_cast<double>(times.size());
-}
-
-double percentile_99_us(std::span<const FrameRecord> frames) {
-  std::vector<double> times = common_times_us(frames, frames);
-  const std::size_t above = times.size() / 100;  // number of frames that may take longer
-  const auto found = times.end() - 1 - static_cast<std::ptrdiff_t>(above);
-  std::nth_element(times.begin(), found, times.end());
-  return *found;
-}
-
-std::int64_t differences(std::span<const FrameRecord> frames, std::span<const FrameRecord> others) {
-  std::int64_t count = 0;
-  for_common_frames(frames, others, [&](const FrameRecord& record, const FrameRecord& other) {
-    std::vector<NumberPair> in_one;
-    std::set_symmetric_difference(record.meeting.begin(), record.meeting.end(), other.meeting.begin(),
-                                  other.meeting.end(), std::back_inserter(in_one));
-    count += std::ssize(in_one);
-  });
-  return count;
 }
 
 }  // namespace glissade::bench

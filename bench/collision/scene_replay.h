@@ -1,52 +1,75 @@
 #pragma once
 
-/// The timing of the benches of scenes. Subjects take turns of some frames each, so that a slow moment of the machine
-/// affects all of them alike; each round begins with another subject.
+/// The benchmarks of scenes: subjects go through the frames of a scene to and fro, so that nothing ever jumps.
 
-#include <span>
+#include <memory>
+#include <string>
 #include <vector>
 
-#include <glissade/collision/frame_result.h>
+#include <benchmark/benchmark.h>
 
-#include "scene_subject.h"
+#include "bench_program.h"
+#include "scene_cast.h"
 
 namespace glissade::bench {
 
-struct ReplayLimits {
-  int run_in = 20;       ///< frames that do not count: subjects with memory fill it
-  int frames = 2000;     ///< after those
-  int turn = 50;         ///< frames
-  int warm_up = 5;       ///< frames of a turn that do not count: caches hold the models of others
-  double seconds = 8.0;  ///< after which a subject stops; it has then taken the first frames only
-  int least = 3;         ///< frames, however long they take
+/// A scene and the frames that all subjects see.
+struct Film {
+  Scene scene;
+  std::vector<std::vector<MovedObject>> frames;
 };
 
-/// One frame of one subject.
-struct FrameRecord {
-  int frame = 0;
-  double us = 0.0;
-  std::vector<NumberPair> meeting;  ///< ascending, the lower number first
-  collision::FrameReport report;
+/// The first frames of a scene.
+Film film(Scene scene, std::size_t frames);
+
+/// The same of objects that bounce off each other; `cast` decides which of them meet.
+Film film_with_bounces(Scene scene, std::size_t frames, SceneCast& cast);
+
+/// One subject in one film.
+class Replay {
+ public:
+  using Meeting = std::vector<std::vector<NumberPair>>;
+
+  /// Goes through the frames once. The cast and the film must outlive the replay.
+  Replay(SceneCast& cast, const SceneLibrary& library, const Film& film);
+
+  /// The pairs that meet in each frame, ascending, the lower number first.
+  const Meeting& meeting() const { return meeting_; }
+  const Film& film() const { return film_; }
+  bool has_report() const { return subject_->report() != nullptr; }
+
+  /// Goes through the frames, each time in the other direction; calls after_frame(subject) after each.
+  template <typename AfterFrame>
+  void pass(const AfterFrame& after_frame) {
+    const std::size_t count = film_.frames.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      subject_->step(film_.frames[is_forward_ ? i : count - 1 - i]);
+      after_frame(*subject_);
+    }
+    is_forward_ = !is_forward_;
+  }
+
+ private:
+  const Film& film_;
+  std::unique_ptr<SceneSubject> subject_;
+  Meeting meeting_;
+  bool is_forward_ = true;
 };
 
-/// Lets the objects bounce off each other for `frames` frames. The referee decides which of them meet.
-void play(Scene& scene, SceneSubject& referee, int frames);
+/// Replays that benchmarks share, and the film of a case.
+struct SceneCase {
+  std::string name;  ///< BENCH/CASE
+  std::shared_ptr<Lazy<SceneCast>> cast;
+  std::shared_ptr<Lazy<Film>> film;
+  int pause_ms = 0;           ///< after each frame, not measured
+  bool is_real_time = false;  ///< for several threads
+};
 
-/// The counted frames of each subject, in order.
-std::vector<std::vector<FrameRecord>> replay(const Scene& scene,
-                                             std::span<const std::unique_ptr<SceneSubject>> subjects,
-                                             const ReplayLimits& limits);
-
-/// Median time of the frames that `others` has, too.
-double median_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
-
-/// Mean time of the same frames, which includes the few slow ones.
-double mean_us(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
-
-/// The 99th percentile of the times; for fewer than a hundred frames the greatest time.
-double percentile_99_us(std::span<const FrameRecord> frames);
-
-/// Number of pairs that meet in one record but not in the other, over the frames that both have.
-std::int64_t differences(std::span<const FrameRecord> frames, std::span<const FrameRecord> others);
+/// Registers NAME/LIBRARY for each library; the pairs that the first finds are what the others' are compared with.
+///
+/// Counters: `frame`, seconds a frame; `meeting`, pairs that meet, mean over the frames; of all but the first,
+/// `disagreements`, pairs of all frames that only one of both finds. Of subjects with a report, means over the frames:
+/// `neighbors`; for each stage `STAGE_in` and `STAGE_out`, pairs, and `STAGE_us`, microseconds.
+void register_scenes(const SceneCase& scene_case, const std::vector<SceneLibrary>& libraries);
 
 }  // namespace glissade::bench

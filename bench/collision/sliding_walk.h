@@ -21,6 +21,9 @@ struct SlidingStep {
   double angle;   ///< of every step, in radians
 };
 
+/// For objects of size 2, as a part of 0.1 m in steps of 10 micrometres and 0.006 degrees.
+inline constexpr SlidingStep kSmallStep{.length = 2e-4, .angle = 1e-4};
+
 /// One part for each phase, of `frames` poses each. All steps have equal length and angle; their directions change
 /// smoothly at random. After the transition from one phase to the next, the gap is that of the phase within a few
 /// steps.

@@ -14,8 +14,6 @@
 
 #include <glissade/collision/dop_query.h>
 
-#include "kernels/instruction_set.h"
-
 namespace glissade::bench {
 
 /// The model that a library has built of a mesh, with its own copy of the data that it needs.
@@ -29,8 +27,10 @@ class Query {
  public:
   virtual ~Query() = default;
 
-  /// Called before each pass over the poses: clears memory of earlier queries and applies global settings.
-  virtual void start() {}
+  /// Applies global settings. Called before passes over the poses, and not measured.
+  virtual void prepare() {}
+  /// Clears memory of earlier queries. Called before each pass.
+  virtual void forget() {}
   /// X_AB is the pose of B in the frame of A.
   virtual bool intersects(const Eigen::Isometry3d& X_AB) = 0;
   /// Number of intersecting pairs of triangles. The library must identify the pairs.
@@ -46,12 +46,7 @@ struct Subject {
   std::string model;  ///< subjects with the same `model` share the models built
   std::function<std::unique_ptr<Model>(const geometry::TriangleMesh&)> build;
   std::function<std::unique_ptr<Query>(const Model& model_A, const Model& model_B)> query;
-  bool slow = false;  ///< takes only a sample of the poses: all would take hours
 };
-
-/// Sets the instruction set of all subjects whose names mention none. Throws std::invalid_argument if it is not
-/// available.
-void choose_instruction_set(collision::InstructionSet set);
 
 /// Glissade with default options; all ratios refer to its time.
 Subject glissade_subject();
@@ -59,8 +54,6 @@ Subject glissade_subject();
 Subject glissade_coherent();
 /// The same on the other instruction sets of this machine: `glissade-avx2`.
 std::vector<Subject> glissade_instruction_sets();
-/// The same for `glissade_coherent`: `glissade-coherent-avx2`.
-std::vector<Subject> glissade_coherent_instruction_sets();
 /// Pure DOP-trees as in the founding paper, without the extra slab: `glissade-no-slab`, and `glissade-brute-force` with
 /// its O(k²) realignment.
 std::vector<Subject> glissade_as_published();
@@ -73,9 +66,5 @@ Subject bullet_subject();
 Subject cgal_subject();
 /// The published method of PQP in our own implementation; not among the other libraries.
 Subject pqp_subject();
-/// All other libraries.
-std::vector<Subject> peers();
-/// The libraries that identify all intersecting pairs of triangles.
-std::vector<Subject> peers_that_count_pairs();
 
 }  // namespace glissade::bench

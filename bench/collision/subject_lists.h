@@ -1,6 +1,6 @@
 #pragma once
 
-/// Lists of subjects that benches compare.
+/// Lists of subjects that benches compare. Glissade is the first.
 
 #include <initializer_list>
 #include <vector>
@@ -16,11 +16,16 @@ inline std::vector<Subject> join(std::initializer_list<std::vector<Subject>> lis
   return all;
 }
 
-/// Glissade first, then other instruction sets, then all other libraries.
-inline std::vector<Subject> usual_subjects() {
-  return join({{glissade_subject()}, glissade_instruction_sets(), peers()});
+/// Those that take all poses.
+inline std::vector<Subject> fast_subjects(bool with_instruction_sets) {
+  return join({{glissade_subject()},
+               with_instruction_sets ? glissade_instruction_sets() : std::vector<Subject>{},
+               {fcl_subject()}});
 }
 
-inline const std::vector<std::string> kPeers{"fcl", "ode", "bullet", "cgal"};
+/// Those that take a sample, because all poses would take hours.
+inline std::vector<Subject> sample_subjects() {
+  return {glissade_subject(), ode_subject(), bullet_subject(), cgal_subject()};
+}
 
 }  // namespace glissade::bench

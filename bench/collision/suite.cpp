@@ -1,8 +1,7 @@
 #include "suite.h"
 
 #include <algorithm>
-#include <memory>
-#include <stdexcept>
+#include <utility>
 
 #include <glissade/shapes/benchmark_shapes.h>
 
@@ -13,25 +12,33 @@ namespace {
 
 using geometry::TriangleMesh;
 
+constexpr std::int64_t kTypical = 20'000;
+constexpr std::int64_t kLarge = 1'000'000;
+
 TriangleMesh of_size(const TriangleMesh& mesh, double size) {
   return centered(mesh, size / largest_extent(mesh));
 }
 
+void add_shape(const shapes::BenchmarkShape& shape, std::int64_t triangles, std::vector<SuiteMesh>& meshes) {
+  meshes.push_back({shape.name + "-" + short_count(triangles),
+                    lazy([shape, triangles] { return MeshPair(of_size(shape.make(triangles), kSize)); }),
+                    triangles == kTypical});
+}
+
+// Part of the name of a benchmark.
+std::string plain(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '+');
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+MeshPair scaled_alike(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B) {
+  const double scale = kSize / std::max(largest_extent(mesh_A), largest_extent(mesh_B));
+  return {std::make_shared<const TriangleMesh>(centered(mesh_A, scale)),
+          std::make_shared<const TriangleMesh>(centered(mesh_B, scale))};
+}
+
 }  // namespace
-
-std::vector<std::string> all_shapes() {
-  std::vector<std::string> names;
-  for (const shapes::BenchmarkShape& shape : shapes::benchmark_shapes())
-    names.push_back(shape.name);
-  return names;
-}
-
-geometry::TriangleMesh make_shape(const std::string& shape, std::int64_t triangles, double size) {
-  for (const shapes::BenchmarkShape& known : shapes::benchmark_shapes()) {
-    if (known.name == shape) return of_size(known.make(triangles), size);
-  }
-  throw std::invalid_argument("shape " + shape + " is unknown");
-}
 
 std::string short_count(std::int64_t count) {
   if (count >= 1'000'000 && count % 1'000'000 == 0) return std::to_string(count / 1'000'000) + "M";
@@ -39,36 +46,33 @@ std::string short_count(std::int64_t count) {
   return std::to_string(count);
 }
 
-std::vector<SuiteMesh> suite_meshes(const Suite& suite, const std::vector<std::int64_t>& triangles, double size) {
-  std::vector<SuiteMesh> meshes;
-  for (const std::string& shape : suite.shapes) {
-    for (const std::int64_t count : triangles) {
-      meshes.push_back(
-          {shape + "-" + short_count(count), [shape, count, size] { return make_shape(shape, count, size); }});
-    }
-  }
-  for (const UserMesh& user : user_meshes(suite.files))
-    meshes.push_back({user.name, [mesh = user.mesh, size] { return of_size(*mesh, size); }});
+std::vector<TriangleMesh> all_shapes(std::int64_t triangles, double size) {
+  std::vector<TriangleMesh> meshes;
+  for (const shapes::BenchmarkShape& shape : shapes::benchmark_shapes())
+    meshes.push_back(of_size(shape.make(triangles), size));
   return meshes;
 }
 
-std::vector<PartPair> part_pairs(const Suite& suite) {
-  const std::vector<UserMesh> meshes = user_meshes(suite.files);
-  std::vector<PartPair> pairs;
-  for (const UserMesh& user : meshes) {
-    const auto copy = std::make_shared<const TriangleMesh>(of_size(*user.mesh, kSize));
-    pairs.push_back({user.name, copy, copy});
+Suite make_suite(const BenchOptions& options) {
+  Suite suite{options.quick, {}, {}, {}};
+  std::vector<std::int64_t> sizes{1'000, kTypical};
+  if (!suite.quick) sizes.push_back(100'000);
+  for (const shapes::BenchmarkShape& shape : shapes::benchmark_shapes()) {
+    for (const std::int64_t triangles : sizes)
+      add_shape(shape, triangles, suite.meshes);
+    if (!suite.quick) add_shape(shape, kLarge, suite.large);
   }
-  if (suite.pairs.empty()) return pairs;
-  for (const UserPair& user : user_pairs(suite.pairs, meshes)) {
-    const TriangleMesh& mesh_A = *user.mesh_A.mesh;
-    const TriangleMesh& mesh_B = *user.mesh_B.mesh;
-    const double scale = kSize / std::max(largest_extent(mesh_A), largest_extent(mesh_B));
-    pairs.push_back({user.mesh_A.name + "/" + user.mesh_B.name,
-                     std::make_shared<const TriangleMesh>(centered(mesh_A, scale)),
-                     std::make_shared<const TriangleMesh>(centered(mesh_B, scale))});
+  const std::vector<UserMesh> of_user = user_meshes(options.meshes);
+  for (const UserMesh& user : of_user)
+    suite.parts.push_back(
+        {plain(user.name), lazy([mesh = user.mesh] { return MeshPair(of_size(*mesh, kSize)); }), true});
+  suite.meshes.insert(suite.meshes.end(), suite.parts.begin(), suite.parts.end());
+  if (options.pairs.empty()) return suite;
+  for (const UserPair& user : user_pairs(options.pairs, of_user)) {
+    suite.parts.push_back({plain(user.mesh_A.name + "+" + user.mesh_B.name),
+                           lazy([user] { return scaled_alike(*user.mesh_A.mesh, *user.mesh_B.mesh); }), true});
   }
-  return pairs;
+  return suite;
 }
 
 }  // namespace glissade::bench

@@ -1,0 +1,33 @@
+#pragma once
+
+/// What all benches of collisions need of Google Benchmark.
+
+#include <string>
+#include <utility>
+
+#include <benchmark/benchmark.h>
+
+#include "kernels/instruction_set.h"
+
+namespace glissade::bench {
+
+/// Registers a benchmark named BENCH/CASE/SUBJECT. It begins with the best instruction set in use, whatever the one
+/// before it has used.
+template <typename Run>
+benchmark::internal::Benchmark* register_bench(const std::string& name, Run run) {
+  return benchmark::RegisterBenchmark(name.c_str(),
+                                      [run = std::move(run)](benchmark::State& state) {
+                                        collision::use_instruction_set(collision::available_instruction_sets().front());
+                                        run(state);
+                                      })
+      ->Unit(benchmark::kMillisecond);
+}
+
+/// A counter: seconds for each of the `count` parts of an iteration.
+inline benchmark::Counter seconds_each(std::size_t count) {
+  using benchmark::Counter;
+  return {static_cast<double>(count),
+          static_cast<Counter::Flags>(Counter::kIsIterationInvariantRate | Counter::kInvert)};
+}
+
+}  // namespace glissade::bench
