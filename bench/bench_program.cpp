@@ -41,8 +41,10 @@ int parse_and_run(int argc, char** argv, const char* description, const Register
   } catch (const CLI::ParseError& error) {
     throw std::invalid_argument(error.what());
   }
+  // Unless the user wants another: repetitions take turns, so each may be short.
+  std::string min_time = options.quick ? "--benchmark_min_time=0.01" : "--benchmark_min_time=0.05";
   std::vector<std::string> others = app.remaining();
-  std::vector<char*> arguments{argv[0]};
+  std::vector<char*> arguments{argv[0], min_time.data()};
   for (std::string& other : others)
     arguments.push_back(other.data());
   int count = static_cast<int>(arguments.size());
