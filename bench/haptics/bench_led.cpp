@@ -1,10 +1,8 @@
-// See `run_led` in benches.h.
+// See `register_led` in benches.h.
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <memory>
-#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -83,47 +81,38 @@ SlidingScene led_pair(const std::string& name, const UserPair& pair, int ticks) 
   return led(name, centered(mesh_A, scale), centered(mesh_B, scale), X_AB, ticks);
 }
 
-void measure(const SlidingScene& scene, Results& results) {
-  const PacedRun run = run_paced(kSlidingSubjects.front(), scene, scene.ticks);
-  std::vector<double> pushed_us;
-  for (std::size_t i = 0; i < run.tick_us.size(); ++i) {
-    if (run.pushes[i] != 0) pushed_us.push_back(run.tick_us[i]);
+void run_led(benchmark::State& state, const std::string& name, const UserPair& pair, int ticks) {
+  SlidingScene scene;
+  try {
+    scene = led_pair(name, pair, ticks);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name + ": " + error.what());
   }
-  const auto row = [&](const char* metric, double value, const char* unit) {
-    results.add({kLed, scene.name, kSlidingSubjects.front().name, metric, value, unit});
-  };
-  const std::size_t triangles =
-      scene.obstacles.front().body->tree.mesh().triangles.size() + scene.part_V->tree.mesh().triangles.size();
-  row("ticks", scene.ticks, "1");
-  row("triangles", static_cast<double>(triangles), "1");
-  row("pushed", static_cast<double>(pushed_us.size()) / scene.ticks, "1");
-  row("colliding_poses", count_collisions(scene, run.X_WV), "1");
-  if (pushed_us.empty()) return;
-  const double sum_us = std::accumulate(pushed_us.begin(), pushed_us.end(), 0.0);
-  row("tick_mean", 1e-3 * sum_us / static_cast<double>(pushed_us.size()), "ms");
-  row("tick_p50", 1e-3 * quantile(pushed_us, 0.5), "ms");
-  row("tick_p99", 1e-3 * quantile(pushed_us, 0.99), "ms");
-  row("tick_max", 1e-3 * quantile(pushed_us, 1.0), "ms");
+  for (auto _ : state) {
+    const PacedRun run = run_paced(kSlidingSubjects.front(), scene, ticks);
+    run.report_times(state);
+    state.counters["ticks"] = ticks;
+    state.counters["triangles"] = static_cast<double>(scene.obstacles.front().body->tree.mesh().triangles.size() +
+                                                      scene.part_V->tree.mesh().triangles.size());
+    state.counters["pushed"] = static_cast<double>(run.times.count()) / ticks;
+    state.counters["colliding_poses"] = count_collisions(scene, run.X_WV);
+  }
 }
 
 }  // namespace
 
-void run_led(const SlidingBenchOptions& options, Results& results) {
-  const int ticks = options.quick ? 300 : 2000;
-  const std::vector<UserMesh> meshes = user_meshes(options.led_meshes);
-  const auto run = [&](const std::string& name, const UserPair& pair) {
-    std::fprintf(stderr, "led %s\n", name.c_str());
-    try {
-      measure(led_pair(name, pair, ticks), results);
-    } catch (const std::invalid_argument& error) {
-      throw std::invalid_argument(name + ": " + error.what());
-    }
+void register_led(const BenchOptions& options) {
+  const std::vector<UserMesh> meshes = user_meshes(options.meshes);
+  const auto add = [ticks = options.quick ? 300 : 2000](const std::string& name, const UserPair& pair) {
+    register_single_run("led/" + name + "/" + kSlidingSubjects.front().name, [=](benchmark::State& state) {
+      run_led(state, name, pair, ticks);
+    })->UseManualTime();
   };
   for (const UserMesh& mesh : meshes)
-    run(mesh.name, {mesh, mesh});
-  if (options.led_pairs.empty()) return;
-  for (const UserPair& pair : user_pairs(options.led_pairs, meshes))
-    run(pair.mesh_A.name + "/" + pair.mesh_B.name, pair);
+    add(mesh.name, {mesh, mesh});
+  if (options.pairs.empty()) return;
+  for (const UserPair& pair : user_pairs(options.pairs, meshes))
+    add(pair.mesh_A.name + "+" + pair.mesh_B.name, pair);
 }
 
 }  // namespace glissade::bench

@@ -1,11 +1,10 @@
-// See `run_nut` in benches.h.
+// See `register_nut` in benches.h.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 
 #include "benches.h"
+#include "call_times.h"
 #include "sliding_subject.h"
 
 namespace glissade::bench {
@@ -13,37 +12,36 @@ namespace {
 
 constexpr int kTicksPerTurn = 1000;
 
-void turn(const SlidingSubject& subject, const test_support::SlidingScene& scene, int turns, Results& results) {
+void turn_nut(benchmark::State& state, const SlidingSubject& subject, const test_support::SlidingScene& scene,
+              int ticks) {
   const SlidingRun run = start(subject, scene);
   double worst_m = 0.0;
   double advance_m = 0.0;
-  const auto started = std::chrono::steady_clock::now();
-  for (int tick = 1; tick <= turns * kTicksPerTurn; ++tick) {
-    run.sliding->advance(scene.ghost(tick));
-    advance_m = test_support::nut_advance(scene, run.sliding->result().X_WV);
-    const double helix_m = test_support::nut_pitch() * tick / kTicksPerTurn;
-    worst_m = std::max(worst_m, std::abs(advance_m - helix_m));
-    if (tick % kTicksPerTurn != 0) continue;
-    std::fprintf(stderr, "sliding nut-turns %s turn %d of %d, %.1f um from the helix at worst\n", subject.name.c_str(),
-                 tick / kTicksPerTurn, turns, 1e6 * worst_m);
+  for (auto _ : state) {
+    for (int tick = 1; tick <= ticks; ++tick) {
+      run.sliding->advance(scene.ghost(tick));
+      advance_m = test_support::nut_advance(scene, run.sliding->result().X_WV);
+      const double helix_m = test_support::nut_pitch() * tick / kTicksPerTurn;
+      worst_m = std::max(worst_m, std::abs(advance_m - helix_m));
+    }
   }
-  const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - started;
-  const auto row = [&](const char* metric, double value, const char* unit) {
-    results.add({kSliding, "nut-turns", subject.name, metric, value, unit});
-  };
-  row("turns", turns, "1");
-  row("pitch", 1e3 * test_support::nut_pitch(), "mm");
-  row("advance_per_turn", 1e3 * advance_m / turns, "mm");
-  row("worst_deviation", 1e6 * worst_m, "um");
-  row("tick_mean", took.count() / (turns * kTicksPerTurn), "ms");
+  const double turns = static_cast<double>(ticks) / kTicksPerTurn;
+  state.counters["tick"] = CallTimes::tick_counter(ticks);
+  state.counters["turns"] = turns;
+  state.counters["pitch_mm"] = 1e3 * test_support::nut_pitch();
+  state.counters["advance_per_turn_mm"] = 1e3 * advance_m / turns;
+  state.counters["worst_deviation_um"] = 1e6 * worst_m;
 }
 
 }  // namespace
 
-void run_nut(const SlidingBenchOptions& options, Results& results) {
-  const test_support::SlidingScene scene = test_support::nut_scene();
-  for (const SlidingSubject& subject : kSlidingSubjects)
-    turn(subject, scene, options.quick ? 1 : scene.ticks / kTicksPerTurn, results);
+void register_nut(const BenchOptions& options) {
+  const auto scene = lazy([] { return test_support::nut_scene(); });
+  for (const SlidingSubject& subject : kSlidingSubjects) {
+    register_single_run(
+        "sliding/nut-turns/" + subject.name,
+        [=, ticks = options.quick ? 200 : 3000](benchmark::State& state) { turn_nut(state, subject, **scene, ticks); });
+  }
 }
 
 }  // namespace glissade::bench

@@ -1,8 +1,9 @@
-// See `run_pegs` in benches.h.
+// See `register_pegs` in benches.h.
 
 #include <array>
-#include <cstdio>
+#include <cstdint>
 #include <numbers>
+#include <string>
 
 #include "benches.h"
 #include "sliding_subject.h"
@@ -25,7 +26,7 @@ struct PegSetting {
   bool spiral_search;
 };
 
-const std::array<PegSetting, 4> kSettings{
+const std::array<PegSetting, 4> kPegSettings{
     PegSetting{"pegs-0.3mm-0.5deg", kSlidingSubjects[0], 200, 0.3e-3, 0.5, 0, false},
     PegSetting{"pegs-0.3mm-0.5deg", kSlidingSubjects[1], 50, 0.3e-3, 0.5, 0, false},
     PegSetting{"pegs-1mm-1.5deg", kSlidingSubjects[0], 200, 1e-3, 1.5, kSearchMilliseconds, false},
@@ -42,13 +43,11 @@ bool is_inserted(const PegSetting& setting, std::uint64_t seed) {
 
 }  // namespace
 
-void run_pegs(const SlidingBenchOptions& options, Results& results) {
-  for (const PegSetting& setting : kSettings) {
-    std::fprintf(stderr, "sliding %s %s\n", setting.name, setting.subject.name.c_str());
-    const int trials = options.quick ? 2 : setting.trials;
-    const int inserted = count_trials(trials, [&](std::uint64_t seed) { return is_inserted(setting, seed); });
-    results.add({kSliding, setting.name, setting.subject.name, "trials", static_cast<double>(trials), "1"});
-    results.add({kSliding, setting.name, setting.subject.name, "inserted", static_cast<double>(inserted), "1"});
+void register_pegs(const BenchOptions& options) {
+  for (const PegSetting& setting : kPegSettings) {
+    register_trials(std::string("sliding/") + setting.name + "/" + setting.subject.name,
+                    options.quick ? 2 : setting.trials, "inserted",
+                    [&setting](std::uint64_t seed) { return is_inserted(setting, seed); });
   }
 }
 

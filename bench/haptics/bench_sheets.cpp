@@ -1,6 +1,6 @@
-// See `run_sheets` in benches.h.
+// See `register_sheets` in benches.h.
 
-#include <cstdio>
+#include <cstdint>
 
 #include <glissade/haptics/sliding.h>
 
@@ -29,13 +29,10 @@ int trials_of(const SlidingSubject& subject, bool quick) {
 
 }  // namespace
 
-void run_sheets(const SlidingBenchOptions& options, Results& results) {
+void register_sheets(const BenchOptions& options) {
   for (const SlidingSubject& subject : kSlidingSubjects) {
-    std::fprintf(stderr, "sliding open-sheets %s\n", subject.name.c_str());
-    const int trials = trials_of(subject, options.quick);
-    const int crossed = count_trials(trials, [&](std::uint64_t seed) { return crosses(subject, seed); });
-    results.add({kSliding, "open-sheets", subject.name, "trials", static_cast<double>(trials), "1"});
-    results.add({kSliding, "open-sheets", subject.name, "crossed", static_cast<double>(crossed), "1"});
+    register_trials("sliding/open-sheets/" + subject.name, trials_of(subject, options.quick), "crossed",
+                    [=](std::uint64_t seed) { return crosses(subject, seed); });
   }
 }
 

@@ -1,11 +1,11 @@
-// See `run_solver` in benches.h.
+// See `register_solver` in benches.h.
 
-#include <chrono>
+#include <cstdint>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "benches.h"
-#include "sliding_account.h"
 #include "solver/projection.h"
 
 namespace glissade::bench {
@@ -35,31 +35,30 @@ Programme random_programme(int rows, std::mt19937_64& random) {
   return programme;
 }
 
+void project(benchmark::State& state, int rows) {
+  constexpr int kProgrammes = 300;
+  std::mt19937_64 random(static_cast<std::uint64_t>(rows));
+  std::vector<Programme> programmes;
+  while (programmes.size() < kProgrammes)
+    programmes.push_back(random_programme(rows, random));
+  haptics::ProjectionSolver solver;
+  std::int64_t active = 0;
+  while (state.KeepRunningBatch(kProgrammes)) {
+    for (const Programme& programme : programmes)
+      active += solver.project(programme.wanted, kStiffness, programme.rows).active_count;
+  }
+  using benchmark::Counter;
+  const auto count = static_cast<double>(active);
+  state.counters["active"] = Counter(count, Counter::kAvgIterations);
+  state.counters["time_per_active"] = Counter(count, Counter::kIsRate | Counter::kInvert);
+}
+
 }  // namespace
 
-void run_solver(const SlidingBenchOptions& options, Results& results) {
-  const int passes = options.quick ? 21 : 101;
+void register_solver(const BenchOptions& /*options*/) {
   for (const int rows : {1, 2, 4, 8, 16, 32, 64}) {
-    std::mt19937_64 random(static_cast<std::uint64_t>(rows));
-    std::vector<Programme> programmes;
-    while (programmes.size() < 300)
-      programmes.push_back(random_programme(rows, random));
-    haptics::ProjectionSolver solver;
-    std::vector<double> pass_us;
-    std::int64_t active = 0;
-    for (int pass = 0; pass < passes; ++pass) {
-      active = 0;
-      const auto start = std::chrono::steady_clock::now();
-      for (const Programme& programme : programmes)
-        active += solver.project(programme.wanted, kStiffness, programme.rows).active_count;
-      pass_us.push_back(std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count());
-    }
-    const double us = quantile(pass_us, 0.5);
-    const std::string name = "solver-" + std::to_string(rows);
-    const auto count = static_cast<double>(programmes.size());
-    results.add({kSliding, name, "glissade", "active", static_cast<double>(active) / count, "1"});
-    results.add({kSliding, name, "glissade", "time", us / count, "us"});
-    results.add({kSliding, name, "glissade", "time_per_active", us / static_cast<double>(active), "us"});
+    benchmark::RegisterBenchmark(("sliding/solver-" + std::to_string(rows) + "/glissade").c_str(),
+                                 [=](benchmark::State& state) { project(state, rows); });
   }
 }
 

@@ -1,82 +1,80 @@
 #pragma once
 
-/// The benchmarks of sliding contact. Each adds rows to the bench `sliding`, `run_tick` to the bench `tick`,
-/// `run_passivity` to the bench `passivity`, `run_ages` to the bench `ages`, `run_clasp` to the bench `clasp`,
-/// `run_led` to the bench `led`.
+/// The benches of the haptic loop and of sliding contact. Each function registers one of them, or a part of one. A run
+/// is a benchmark of one iteration. Quantiles, such as the counter `p99_ms`, are those of `CallTimes`; `tick` is the
+/// mean time of a tick, seconds.
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
-#include <vector>
+#include <utility>
 
-#include "results.h"
+#include <benchmark/benchmark.h>
+
+#include "bench_program.h"
 
 namespace glissade::bench {
 
-inline constexpr const char* kSliding = "sliding";
-inline constexpr const char* kTick = "tick";
-inline constexpr const char* kPassivity = "passivity";
-inline constexpr const char* kAges = "ages";
-inline constexpr const char* kClasp = "clasp";
-inline constexpr const char* kLed = "led";
+/// A benchmark of one iteration, which may take turns with others.
+template <typename Run>
+benchmark::internal::Benchmark* register_run(const std::string& name, Run run) {
+  return benchmark::RegisterBenchmark(name.c_str(), std::move(run))->Iterations(1)->Unit(benchmark::kMillisecond);
+}
 
-struct SlidingBenchOptions {
-  bool quick = false;
-  std::vector<std::string> scenes;                ///< names of `sliding_scene_names`; empty: all
-  std::vector<std::string> scene_files;           ///< more scenes for `run_tick`
-  std::string meshes;                             ///< folder of more meshes for `run_ages`; empty: none
-  std::vector<std::filesystem::path> led_meshes;  ///< meshes and folders of them for `run_led`
-  std::filesystem::path led_pairs;                ///< a file for `user_pairs`, of these meshes; or empty
-};
+/// One whose outcome is always the same, or takes long: it runs once, however often others are repeated.
+template <typename Run>
+benchmark::internal::Benchmark* register_single_run(const std::string& name, Run run) {
+  return register_run(name, std::move(run))->Repetitions(1);
+}
 
-/// Each scene with each method: case `SCENE`, the metrics of `SlidingAccount`, and p50 and p99 of the tick times.
-void run_scenes(const SlidingBenchOptions& options, Results& results);
+/// `tick/rows-ROWS` and `tick/rows-12-two-hands`: a tick of the haptic kernel.
+void register_tick(const BenchOptions& options);
 
-/// Sheets whose ghosts pass through sheets: case `open-sheets`, metrics `trials` and `crossed`. Runs on all processors.
-void run_sheets(const SlidingBenchOptions& options, Results& results);
+/// `tick/SCENE-AGEms`: the force between two answers of the simulation, with sets of different ages. Subjects
+/// `glissade`, `last-force` (the force of the set is held) and `penalty` (a spring at each contact of the set);
+/// counters `error_max_percent` and `error_rms_percent` against the simulation's answer to the ghost of that tick, of
+/// the peak `peak_N` of the force. On `fast-plane` also `sideways_percent`, the greatest force along it over that
+/// across it.
+void register_old_sets(const BenchOptions& options);
 
-/// Pegs whose ghosts go to the bottom of their holes: cases `pegs-0.3mm-0.5deg` and `pegs-1mm-1.5deg`, named after the
-/// final deviation of the ghost, and `pegs-1mm-1.5deg-spiral-search`; metrics `trials` and `inserted`. Runs on all
+/// `sliding/SCENE`: each scene with each method in real time. Counters of `SlidingAccount`, and times of the ticks in
+/// which a contact pushes.
+void register_scenes(const BenchOptions& options);
+
+/// `sliding/open-sheets`: sheets whose ghosts pass through sheets. Counters `trials` and `crossed`. Uses all
 /// processors.
-void run_pegs(const SlidingBenchOptions& options, Results& results);
+void register_sheets(const BenchOptions& options);
 
-/// A nut whose ghost turns on its bolt and does not move along it: case `nut-turns`, metrics `turns`, `pitch`,
-/// `advance_per_turn`, `worst_deviation` from the helix over all ticks, and `tick_mean`, the mean time of a tick.
-void run_nut(const SlidingBenchOptions& options, Results& results);
+/// `sliding/pegs-0.3mm-0.5deg` and `sliding/pegs-1mm-1.5deg`, pegs whose ghosts go to the bottom of their holes, named
+/// after the final deviation of the ghost; and `sliding/pegs-1mm-1.5deg-spiral-search`. Counters `trials` and
+/// `inserted`. Uses all processors.
+void register_pegs(const BenchOptions& options);
 
-/// Random quadratic programmes of 1 to 64 rows: cases `solver-ROWS`, metrics `time` of a projection, `active` contacts,
-/// and `time_per_active`.
-void run_solver(const SlidingBenchOptions& options, Results& results);
+/// `sliding/nut-turns`: a nut whose ghost turns on its bolt and does not move along it. Counters `turns`, `pitch_mm`,
+/// `advance_per_turn_mm`, `worst_deviation_um` from the helix over all ticks, and `tick`.
+void register_nut(const BenchOptions& options);
 
-/// The force between two answers of the simulation, with sets of different ages: cases `SCENE-AGEms`, subjects
-/// `glissade`, `last-force` (the force of the set is held) and `penalty` (a spring at each contact of the set), metrics
-/// `error_max` and `error_rms` against the simulation's answer to the ghost of that tick, in percent of the peak of the
-/// force; `sideways` on the plane. Cases `cost-ROWS` and `cost-envelope`: metric `time` of a tick, and of the envelope.
-void run_tick(const SlidingBenchOptions& options, Results& results);
+/// `sliding/solver-ROWS`: random quadratic programmes. Counters `active` contacts and `time_per_active`, seconds.
+void register_solver(const BenchOptions& options);
 
-/// The stability of the coupling, without a clock. Cases `DEVICE-DELAYms`: metric `stiffness` of the subjects
-/// `glissade` (`passive_stiffness`) and `simulation` (from where an oscillation grows), `ratio_to_simulation`. Case
-/// `random`: `settings`, `least_energy` of the observer, `most_given` to a hand. Cases `wall-DELAYms`, by the delay of
-/// the round trip: `stiffness`, `force`, `overshoot`, `settled_after` and `unrest` of a hand that presses on a wall.
-void run_passivity(const SlidingBenchOptions& options, Results& results);
+/// `passivity`: the stability of the coupling, without a clock. `DEVICE-DELAYms`: counters `stiffness_N_per_m` (by
+/// `passive_stiffness`), `simulated_N_per_m` (from where an oscillation grows) and their ratio. `random`: `settings`,
+/// `least_energy_J` of the observer, `most_given_J` to a hand. `wall-DELAYms`, by the delay of the round trip:
+/// `stiffness_N_per_m`, `force_N`, `overshoot_percent`, `settled_after_ms` and `unrest_N` of a hand that presses on a
+/// wall.
+void register_passivity(const BenchOptions& options);
 
-/// The simulation in real time with `real_time_rules`: case `SCENE`, subjects `without-budget` and `with-budget` of
+/// `ages/SCENE`: the simulation in real time with `real_time_rules`, subjects `without-budget` and `with-budget` of
 /// work
-/// (`SlidingRules::work_budget`), metrics `age_p50`, `age_p99` and `age_max` of the newest answer, each millisecond,
-/// the same of the durations of calls, `lag_mean` of the visible part behind the ghost, and `ended_early`, the share of
-/// calls.
-void run_ages(const SlidingBenchOptions& options, Results& results);
+/// (`SlidingRules::work_budget`). Quantiles `age_` of the age of the newest answer, each millisecond, and `call_` of
+/// the calls; counters `lag_mean_mm` of the visible part behind the ghost, and `ended_early_percent` of the calls.
+void register_ages(const BenchOptions& options);
 
-/// The clasp of a hand round a ball of 16,000 triangles (`grasping::Clasp`), a millisecond a call: cases `free` and
-/// `closing` (fingers that close, before and after the first contact), `held`, `wild` and `from-scratch`; and
-/// `two-hands-100-objects`, whole calls of `grasping::GraspSimulation`, with the share `both_hold`. Metrics `call_p50`,
-/// `call_p99` and `call_max`: time of the thread on a processor.
-void run_clasp(const SlidingBenchOptions& options, Results& results);
+/// `led/PART` and `led/PART+PART`: the user's meshes in real time, two copies of each and each pair: the ghost wanders
+/// at 0.5 m/s through the obstacle. Counters `ticks`, `triangles` of both, the share `pushed` of ticks in which a
+/// contact pushes, `colliding_poses`, and times of these ticks. Nothing without meshes. A run throws
+/// std::invalid_argument, naming the pair, where the start collides or the two come nowhere near each other.
+void register_led(const BenchOptions& options);
 
-/// The user's meshes in real time, two copies of each and each pair of `led_pairs`: the ghost wanders at 0.5 m/s
-/// through the obstacle. Case `PART` or `PART/PART`, metrics `ticks`, `triangles` of both, the share `pushed` of ticks
-/// in which a contact pushes, `colliding_poses`, and `tick_mean`, `tick_p50`, `tick_p99` and `tick_max` of these ticks.
-/// Throws std::invalid_argument, naming the pair, where the start collides or the two come nowhere near each other.
-void run_led(const SlidingBenchOptions& options, Results& results);
+/// `replay/car-door`: a recorded offline run is repeated. Counters `tick` and `wrong`, 1 unless all bits are the same.
+void register_replay(const BenchOptions& options);
 
 }  // namespace glissade::bench

@@ -1,8 +1,6 @@
 #include "scripted_scene.h"
 
 #include <chrono>
-#include <filesystem>
-#include <stdexcept>
 
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
@@ -46,12 +44,6 @@ SlidingScene car_door_scene(double speed) {
       "car-door",
       apps::parse_scene(std::string(apps::embedded_scene_yaml(apps::Demonstration::kCarDoor)), "car_door.yaml", "."),
       apps::parse_trajectory(apps::embedded_scene_script(apps::Demonstration::kCarDoor), "car_door_script.csv"), speed);
-}
-
-SlidingScene scene_from_file(const std::string& path, double speed) {
-  const apps::Scene file = apps::read_scene(path);
-  if (!file.script_path) throw std::invalid_argument(path + ": the scene has no script for the hand to follow");
-  return scripted(std::filesystem::path(path).stem().string(), file, apps::read_trajectory(*file.script_path), speed);
 }
 
 }  // namespace glissade::bench

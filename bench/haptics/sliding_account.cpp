@@ -28,61 +28,77 @@ double stretch(const geometry::Displacement& d, const haptics::CouplingStiffness
 
 }  // namespace
 
-SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
-  SlidingRun run = start(subject, scene);
+PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
+  using Clock = std::chrono::steady_clock;
+  const SlidingRun run = start(subject, scene, {.rules = {.has_search_thread = true}});
   haptics::SlidingSimulation& sliding = *run.sliding;
-  JamCheck jam_check(scene);
-  const haptics::CouplingStiffness k = sliding.stiffness();
-  const double radius = sliding.part().radius();
-  const auto& p_Vref = sliding.part().p_Vref();
-  SlidingAccount account;
-  account.ticks = ticks;
-  std::vector<Isometry3d> poses;
-  geometry::Displacement error_before = sliding.error();
+  PacedRun paced{.stiffness = sliding.stiffness(),
+                 .margin = sliding.margin(),
+                 .X_WV = {sliding.result().X_WV},
+                 .error = {sliding.error()}};
+  Clock::time_point due = Clock::now();
   for (int tick = 1; tick <= ticks; ++tick) {
-    const Isometry3d X_WV_before = sliding.result().X_WV;
-    const double ghost_motion = geometry::motion_bound(
-        geometry::displacement_between(scene.ghost(tick - 1), scene.ghost(tick), p_Vref), radius);
-    sliding.advance(scene.ghost(tick));
-    account.pushes.push_back(sliding.result().pushing > 0 ? 1 : 0);
+    const Isometry3d X_WG = scene.ghost(tick);
+    std::this_thread::sleep_until(due);
+    const Clock::time_point begin = Clock::now();
+    sliding.advance(X_WG);
+    const Clock::time_point end = Clock::now();
+    if (sliding.result().pushing > 0) paced.times.record(end - begin);
+    paced.X_WV.push_back(sliding.result().X_WV);
+    paced.error.push_back(sliding.error());
+    due = std::max(end, due + std::chrono::milliseconds(1));
+  }
+  paced.queries_per_tick = static_cast<double>(run.queries()) / ticks;
+  return paced;
+}
 
-    const Isometry3d& X_WV = sliding.result().X_WV;
-    if (poses.empty() || X_WV.matrix() != X_WV_before.matrix()) poses.push_back(X_WV);
-    const geometry::Displacement error = sliding.error();
-    account.mean_stretch_m += stretch(error, k) / ticks;
-    const double moved = geometry::motion_bound(geometry::displacement_between(X_WV_before, X_WV, p_Vref), radius);
-    if (moved < kStandsStill_m && geometry::motion_bound(error, radius) > kAhead_m &&
-        jam_check.could_move(X_WV, error, k, sliding.margin())) {
+void PacedRun::report_times(benchmark::State& state) const {
+  times.report_tick(state);
+  times.report_ms(state);
+}
+
+SlidingAccount account_of(const PacedRun& run, const test_support::SlidingScene& scene) {
+  JamCheck jam_check(scene);
+  const haptics::CouplingStiffness& k = run.stiffness;
+  const double radius = scene.part_V->radius();
+  const auto motion = [&](const Isometry3d& X_from, const Isometry3d& X_to) {
+    return motion_bound(displacement_between(X_from, X_to, scene.part_V->p_Vref()), radius);
+  };
+  SlidingAccount account;
+  account.ticks = static_cast<int>(run.X_WV.size()) - 1;
+  std::vector<Isometry3d> poses;
+  for (int tick = 1; tick <= account.ticks; ++tick) {
+    const auto now = static_cast<std::size_t>(tick);
+    const Isometry3d& X_WV = run.X_WV[now];
+    const Displacement& error = run.error[now];
+    const Displacement& error_before = run.error[now - 1];
+    if (poses.empty() || X_WV.matrix() != run.X_WV[now - 1].matrix()) poses.push_back(X_WV);
+    account.mean_stretch_m += stretch(error, k) / account.ticks;
+    if (motion(run.X_WV[now - 1], X_WV) < kStandsStill_m && motion_bound(error, radius) > kAhead_m &&
+        jam_check.could_move(X_WV, error, k, run.margin)) {
       ++account.jammed_ticks;
     }
     const double jump = k.translational * stretch({error.v - error_before.v, error.w - error_before.w}, k);
+    const double ghost_motion = motion(scene.ghost(tick - 1), scene.ghost(tick));
     account.force_jump_N = std::max(account.force_jump_N, jump);
     account.force_jump_of_bound =
         std::max(account.force_jump_of_bound, jump / (k.translational * (haptics::kSlew_m + ghost_motion)));
-    error_before = error;
   }
-  account.final_stretch_m = stretch(error_before, k);
-  account.queries_per_tick = static_cast<double>(run.queries()) / ticks;
+  account.final_stretch_m = stretch(run.error.back(), k);
+  account.queries_per_tick = run.queries_per_tick;
   account.colliding_poses = count_collisions(scene, poses);
   return account;
 }
 
-PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks) {
-  using Clock = std::chrono::steady_clock;
-  const SlidingRun run = start(subject, scene, {.rules = {.has_search_thread = true}});
-  PacedRun paced;
-  Clock::time_point due = Clock::now();
-  for (int tick = 1; tick <= ticks; ++tick) {
-    std::this_thread::sleep_until(due);
-    const Clock::time_point begin = Clock::now();
-    run.sliding->advance(scene.ghost(tick));
-    const Clock::time_point end = Clock::now();
-    paced.tick_us.push_back(std::chrono::duration<double, std::micro>(end - begin).count());
-    paced.X_WV.push_back(run.sliding->result().X_WV);
-    paced.pushes.push_back(run.sliding->result().pushing > 0 ? 1 : 0);
-    due = std::max(end, due + std::chrono::milliseconds(1));
-  }
-  return paced;
+void SlidingAccount::report(benchmark::State& state) const {
+  state.counters["ticks"] = ticks;
+  state.counters["colliding_poses"] = colliding_poses;
+  state.counters["final_stretch_mm"] = 1e3 * final_stretch_m;
+  state.counters["mean_stretch_mm"] = 1e3 * mean_stretch_m;
+  state.counters["jammed_ticks"] = jammed_ticks;
+  state.counters["force_jump_N"] = force_jump_N;
+  state.counters["force_jump_of_bound"] = force_jump_of_bound;
+  state.counters["queries_per_tick"] = queries_per_tick;
 }
 
 int count_collisions(const test_support::SlidingScene& scene, const std::vector<Isometry3d>& poses_WV) {
@@ -93,11 +109,6 @@ int count_collisions(const test_support::SlidingScene& scene, const std::vector<
   const reference::GridCheck check(placed);
   const std::vector<char> collide = check.collisions(scene.part_V->tree.mesh(), poses_WV);
   return static_cast<int>(std::count(collide.begin(), collide.end(), 1));
-}
-
-double quantile(std::vector<double> values, double p) {
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(p * static_cast<double>(values.size() - 1))];
 }
 
 }  // namespace glissade::bench

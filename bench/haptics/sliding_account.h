@@ -3,16 +3,33 @@
 /// Quality and cost of a sliding method in a scene: the measurements of the benchmarks of sliding contact. They use a
 /// method through `haptics::SlidingSimulation` only.
 
-#include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
 
+#include <glissade/geometry/displacement.h>
+
+#include "call_times.h"
 #include "sliding_subject.h"
 
 namespace glissade::bench {
 
-/// The figures of a run. A stretch is the length of a spring of the translational stiffness k_t that stores as much
+/// A run as in real time: ticks begin a millisecond apart, and a thread of its own searches ahead of need. The times
+/// are of this run alone, all else is the same in each.
+struct PacedRun {
+  CallTimes times{};  ///< of the ticks in which a contact pushes
+  haptics::CouplingStiffness stiffness{};
+  double margin = 0.0;
+  std::vector<Eigen::Isometry3d> X_WV{};        ///< visible pose at the start and after each tick
+  std::vector<geometry::Displacement> error{};  ///< likewise, from the visible pose to the ghost
+  double queries_per_tick = 0.0;
+
+  /// Sets `tick` and the quantiles. For manual time.
+  void report_times(benchmark::State& state) const;
+};
+PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
+
+/// The qualities of a run. A stretch is the length of a spring of the translational stiffness k_t that stores as much
 /// energy as both springs of the coupling.
 struct SlidingAccount {
   int ticks = 0;
@@ -27,24 +44,13 @@ struct SlidingAccount {
   double force_jump_of_bound = 0.0;
   int colliding_poses = 0;  ///< visible poses that collide, by `reference::GridCheck`
   double queries_per_tick = 0.0;
-  std::vector<char> pushes;  ///< of each tick: whether a contact pushes
-};
 
-/// Runs the first `ticks` of the scene.
-SlidingAccount account_of(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
-
-/// A run as in real time: ticks begin a millisecond apart, and a thread of its own searches ahead of need.
-struct PacedRun {
-  std::vector<double> tick_us;          ///< duration of each tick
-  std::vector<Eigen::Isometry3d> X_WV;  ///< visible pose after each tick
-  std::vector<char> pushes;             ///< of each tick: whether a contact pushes
+  /// Sets counters of these names, with their units.
+  void report(benchmark::State& state) const;
 };
-PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingScene& scene, int ticks);
+SlidingAccount account_of(const PacedRun& run, const test_support::SlidingScene& scene);
 
 /// Poses of the part that collide, by `reference::GridCheck`. Runs on all processors.
 int count_collisions(const test_support::SlidingScene& scene, const std::vector<Eigen::Isometry3d>& poses_WV);
-
-/// Sorts the values. p in [0, 1].
-double quantile(std::vector<double> values, double p);
 
 }  // namespace glissade::bench

@@ -15,7 +15,7 @@
 namespace glissade::bench {
 
 struct SlidingSubject {
-  std::string name;  ///< in results.csv
+  std::string name;
   haptics::SlidingMethod method;
 };
 
