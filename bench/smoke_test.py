@@ -13,7 +13,7 @@ import subprocess
 import sys
 import tempfile
 
-FAULTS = ("colliding_poses", "crossed", "disagreements", "wrong")
+FAULTS = ("colliding_poses", "crossed", "disagreements", "jammed_ticks", "wrong")
 
 # With an oblique end.
 BLOCK = """v 0 0 0\nv 3 0 0\nv 4 1 0\nv 0 1 0\nv 0 0 1\nv 3 0 1\nv 5 1 1\nv 0 1 1

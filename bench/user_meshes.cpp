@@ -24,7 +24,8 @@ Eigen::AlignedBox3d box_of(const TriangleMesh& mesh) {
 
 std::string name_of_file(const std::filesystem::path& file) {
   std::string name = file.stem().string();
-  std::replace(name.begin(), name.end(), ',', '_');  // results.csv has no quoting
+  for (const char c : {' ', '/', ','})
+    std::replace(name.begin(), name.end(), c, '_');  // they part the names of benchmarks
   return name;
 }
 

@@ -16,7 +16,7 @@ function(glissade_set_warnings target)
 endfunction()
 
 # glissade_precompile(TARGET PRIVATE headers... | REUSE_FROM target): these headers are compiled once for the whole target.
-# clang-tidy goes without that (preset lint). The options are ccache's wish.
+# clang-tidy and check_includes go without that. The options are ccache's wish.
 function(glissade_precompile target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS)
     return()
@@ -26,8 +26,7 @@ function(glissade_precompile target)
     $<$<CXX_COMPILER_ID:GNU>:-fpch-preprocess>
     "$<$<CXX_COMPILER_ID:Clang>:SHELL:-Xclang -fno-pch-timestamp>")
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-    # The bug above (105651) comes up under other names where the standard library's headers are precompiled. Components,
-    # which go without, keep these warnings.
+    # The bug above (105651) comes up under other names where the standard library's headers are precompiled.
     target_compile_options(${target} PRIVATE -Wno-stringop-overflow -Wno-array-bounds)
   endif()
 endfunction()
@@ -40,9 +39,11 @@ function(glissade_compile_in_bulk target)
   if(ARG_EXCEPT)
     set_source_files_properties(${ARG_EXCEPT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   endif()
-  # No warnings about what stands in other files of the target.
-  target_compile_options(${target} PRIVATE -Wno-shadow
-    $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  if(GLISSADE_COMPILE_IN_BULK)
+    # No warnings about what stands in other files of the target.
+    target_compile_options(${target} PRIVATE -Wno-shadow
+      $<$<CXX_COMPILER_ID:GNU>:-Wshadow=local> $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
 endfunction()
 
 # What all components with Eigen precompile, once.

@@ -1,4 +1,4 @@
-# Sourced by .ci/run and scripts/check_deep: lanes, i.e. checks that run one after the other.
+# Sourced by .ci/run: lanes, i.e. checks that run one after the other.
 
 lane_seconds=()  # "SECONDS NAME" of each lane that passed
 

@@ -25,13 +25,6 @@ void add_shape(const shapes::BenchmarkShape& shape, std::int64_t triangles, std:
                     triangles == kTypical});
 }
 
-// Part of the name of a benchmark.
-std::string plain(std::string name) {
-  std::replace(name.begin(), name.end(), '/', '+');
-  std::replace(name.begin(), name.end(), ' ', '_');
-  return name;
-}
-
 MeshPair scaled_alike(const TriangleMesh& mesh_A, const TriangleMesh& mesh_B) {
   const double scale = kSize / std::max(largest_extent(mesh_A), largest_extent(mesh_B));
   return {std::make_shared<const TriangleMesh>(centered(mesh_A, scale)),
@@ -64,12 +57,10 @@ Suite make_suite(const BenchOptions& options) {
   }
   const std::vector<UserMesh> of_user = user_meshes(options.meshes);
   for (const UserMesh& user : of_user)
-    suite.parts.push_back(
-        {plain(user.name), lazy([mesh = user.mesh] { return MeshPair(of_size(*mesh, kSize)); }), true});
-  suite.meshes.insert(suite.meshes.end(), suite.parts.begin(), suite.parts.end());
+    suite.parts.push_back({user.name, lazy([mesh = user.mesh] { return MeshPair(of_size(*mesh, kSize)); }), true});
   if (options.pairs.empty()) return suite;
   for (const UserPair& user : user_pairs(options.pairs, of_user)) {
-    suite.parts.push_back({plain(user.mesh_A.name + "+" + user.mesh_B.name),
+    suite.parts.push_back({user.mesh_A.name + "+" + user.mesh_B.name,
                            lazy([user] { return scaled_alike(*user.mesh_A.mesh, *user.mesh_B.mesh); }), true});
   }
   return suite;
