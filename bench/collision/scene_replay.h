@@ -22,7 +22,7 @@ struct Film {
 /// The first frames of a scene.
 Film film(Scene scene, std::size_t frames);
 
-/// The same of objects that bounce off each other; `cast` decides which of them meet.
+/// Objects that bounce off each other; `cast` decides which of them meet.
 Film film_with_bounces(Scene scene, std::size_t frames, SceneCast& cast);
 
 /// One subject in one film.
