@@ -50,8 +50,8 @@ function(glissade_add_component name)
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE ON
     VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
-  # Kernels, the sources that Highway compiles once for each instruction set, hold the inner loops. What else there is
-  # runs as fast at -O2 and compiles in less time.
+  # Kernels, the sources that Highway compiles once for each instruction set, hold the inner loops. All else is compiled at
+  # -O2: the demonstration then executes 2 % more instructions in its ticks, and 9 % more until they begin, than at -O3.
   set(kernels ${ARG_SOURCES})
   foreach(source IN LISTS ARG_SOURCES)
     file(STRINGS ${source} is_kernel REGEX "foreach_target\\.h")
