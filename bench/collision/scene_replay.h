@@ -22,7 +22,7 @@ struct Film {
 /// The first frames of a scene.
 Film film(Scene scene, std::size_t frames);
 
-/// Objects that bounce off each other; `cast` decides which of them meet.
+/// A scene whose objects bounce off each other where `cast` finds that they meet.
 Film film_with_bounces(Scene scene, std::size_t frames, SceneCast& cast);
 
 /// One subject in one film.
