@@ -50,8 +50,7 @@ function(glissade_add_component name)
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE ON
     VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
-  # Kernels, the sources that Highway compiles once for each instruction set, hold the inner loops. All else is compiled at
-  # -O2: the demonstration then executes 2 % more instructions in its ticks, and 9 % more until they begin, than at -O3.
+  # Kernels, the sources that Highway compiles once for each instruction set, are compiled alone.
   set(kernels ${ARG_SOURCES})
   foreach(source IN LISTS ARG_SOURCES)
     file(STRINGS ${source} is_kernel REGEX "foreach_target\\.h")
@@ -59,10 +58,6 @@ function(glissade_add_component name)
       list(REMOVE_ITEM kernels ${source})
     endif()
   endforeach()
-  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O2>)
-  if(kernels)
-    set_source_files_properties(${kernels} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:Release>:-O3>)
-  endif()
   if(PROJECT_IS_TOP_LEVEL)
     glissade_set_warnings(${target})
     if("${ARG_DEPENDS}" MATCHES "Eigen3::Eigen|glissade::geometry")

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <tuple>
 #include <vector>
@@ -18,12 +17,8 @@ constexpr double kOpposedStill = -0.4;
 constexpr double kAlike = 0.6;      // the same for normals on one side
 constexpr double kFromBelow = 0.6;  // cosine of the angle to the vertical
 
-constexpr std::array<std::string_view, 6> kFingers{
-    "", "thumb", "index", "middle finger", "ring finger", "little finger"};
-constexpr std::array<std::string_view, 5> kSegments{"", "palm", "inner segment", "middle segment", "outer segment"};
 constexpr std::array<Finger, 5> kAllFingers{Finger::kThumb, Finger::kIndex, Finger::kMiddle, Finger::kRing,
                                             Finger::kLittle};
-constexpr std::array<HandSegment, 3> kFingerSegments{HandSegment::kInner, HandSegment::kMiddle, HandSegment::kOuter};
 
 GraspType type_of(const TouchingSegments& segments) {
   if (segments.is_empty()) return GraspType::kNone;
@@ -56,32 +51,6 @@ std::string_view name_of(GraspType type) {
   return kNames[static_cast<std::size_t>(type)];
 }
 
-int TouchingSegments::count() const {
-  return std::popcount(bits_);
-}
-
-TouchingSegments TouchingSegments::from_bits(std::int32_t bits) {
-  TouchingSegments segments;
-  segments.bits_ = static_cast<std::uint32_t>(bits);
-  return segments;
-}
-
-std::array<SegmentMeaning, 24> TouchingSegments::meaning_of_bits() {
-  std::array<SegmentMeaning, 24> meaning;
-  meaning[0] = {Finger::kNone, HandSegment::kPalm};
-  for (const Finger finger : kAllFingers) {
-    for (const HandSegment kind : kFingerSegments)
-      meaning[first(finger) + static_cast<unsigned>(kind) - 1U] = {finger, kind};
-  }
-  return meaning;
-}
-
-std::string words_of(const SegmentMeaning& segment) {
-  const std::string words = "the " + std::string(kSegments[static_cast<std::size_t>(segment.segment)]);
-  if (segment.finger == Finger::kNone) return words;
-  return words + " of the " + std::string(kFingers[static_cast<std::size_t>(segment.finger)]);
-}
-
 std::string reason_of(const devices::VisibleHand& hand) {
   return reason_of({.type = static_cast<GraspType>(hand.grasp),
                     .form = hand.form,
@@ -91,11 +60,8 @@ std::string reason_of(const devices::VisibleHand& hand) {
 std::string reason_of(const Grasp& grasp) {
   if (grasp.type == GraspType::kNone) return "none: nothing touches";
   std::vector<std::string> touching;
-  if (grasp.segments.has_palm()) touching.push_back(words_of({Finger::kNone, HandSegment::kPalm}));
-  for (const Finger finger : kAllFingers) {
-    for (const HandSegment kind : kFingerSegments) {
-      if (grasp.segments.has({finger, kind})) touching.push_back(words_of({finger, kind}));
-    }
+  for (const SegmentMeaning& segment : TouchingSegments::meaning_of_bits()) {
+    if (segment.segment != HandSegment::kNone && grasp.segments.has(segment)) touching.push_back(words_of(segment));
   }
   std::string text(name_of(grasp.type));
   if (grasp.form != GraspForm::kNone) text += ", " + std::string(name_of(grasp.form));

@@ -15,6 +15,7 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/hand_model.h>
+#include <glissade/grasping/touching_segments.h>
 
 namespace glissade::grasping {
 
@@ -29,31 +30,6 @@ enum class GraspType : std::uint8_t {
 using devices::GraspForm;
 
 std::string_view name_of(GraspType type);
-
-/// Segments that touch, as a set.
-class TouchingSegments {
- public:
-  void add(const SegmentMeaning& segment) { bits_ |= bit(segment); }
-  bool has(const SegmentMeaning& segment) const { return (bits_ & bit(segment)) != 0; }
-  bool has(Finger finger) const { return (bits_ & (0xfU << first(finger))) != 0; }
-  bool has_palm() const { return has({Finger::kNone, HandSegment::kPalm}); }
-  int count() const;
-  bool is_empty() const { return bits_ == 0; }
-  /// As `devices::VisibleHand::touching`.
-  std::int32_t bits() const { return static_cast<std::int32_t>(bits_); }
-  static TouchingSegments from_bits(std::int32_t bits);
-  /// The segment of each bit, the lowest first; `HandSegment::kNone` where no segment has the bit.
-  static std::array<SegmentMeaning, 24> meaning_of_bits();
-  bool operator==(const TouchingSegments&) const = default;
-
- private:
-  static unsigned first(Finger finger) { return 4U * static_cast<unsigned>(finger); }
-  static std::uint32_t bit(const SegmentMeaning& segment) {
-    return 1U << (first(segment.finger) + static_cast<unsigned>(segment.segment) - 1U);
-  }
-
-  std::uint32_t bits_ = 0;
-};
 
 struct Grasp {
   GraspType type = GraspType::kNone;
@@ -72,9 +48,6 @@ struct Grasp {
 std::string reason_of(const Grasp& grasp);
 /// The same of a hand with fingers as the haptic loop tells of it.
 std::string reason_of(const devices::VisibleHand& hand);
-
-/// The words for a segment, such as "the middle segment of the index".
-std::string words_of(const SegmentMeaning& segment);
 
 /// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
 /// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer

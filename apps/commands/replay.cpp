@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/durations.h>
 #include <glissade/apps/record/glove_player.h>
 #include <glissade/apps/record/offline_replay.h>
 #include <glissade/apps/record/replay_audiences.h>
@@ -54,10 +55,6 @@ struct ReplayOptions {
   bool json = false;
 };
 
-double seconds_of(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
-
 /// Repeats the run for its audience, if there is one. `page` becomes the path of the report, if there is one.
 ReplayOutcome repeat_for_audience(const ReplayOptions& options, std::string& page) {
   if (options.view_port) {
@@ -76,12 +73,12 @@ ReplayOutcome repeat_for_audience(const ReplayOptions& options, std::string& pag
 int repeat(const ReplayOptions& options) {
   std::string page;
   const ReplayOutcome outcome = repeat_for_audience(options, page);
-  const double speed = seconds_of(outcome.recorded) / seconds_of(outcome.elapsed);
+  const double speed = in_seconds(outcome.recorded) / in_seconds(outcome.elapsed);
   if (options.json) {
     const nlohmann::json json{{"ticks", outcome.ticks},
                               {"contact_sets", outcome.contact_sets},
-                              {"recorded_s", seconds_of(outcome.recorded)},
-                              {"elapsed_s", seconds_of(outcome.elapsed)},
+                              {"recorded_s", in_seconds(outcome.recorded)},
+                              {"elapsed_s", in_seconds(outcome.elapsed)},
                               {"speed", speed},
                               {"same", outcome.is_same()},
                               {"difference", outcome.difference},
@@ -89,7 +86,7 @@ int repeat(const ReplayOptions& options) {
     std::cout << json.dump(2) << '\n';
   } else {
     std::cout << "glissade replay: " << outcome.ticks << " ticks and " << outcome.contact_sets << " contact sets of "
-              << fixed_text(seconds_of(outcome.recorded), 3) << " s are the same to the bit, " << fixed_text(speed, 1)
+              << fixed_text(in_seconds(outcome.recorded), 3) << " s are the same to the bit, " << fixed_text(speed, 1)
               << " times as fast as then\n";
     if (!page.empty()) std::cout << "report: " << page << '\n';
   }
@@ -102,14 +99,14 @@ int play(const ReplayOptions& options) {
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   std::string damage;
   const std::vector<GloveTrack> tracks = read_glove_tracks(options.log, damage);
-  const double duration_s = seconds_of(duration_of(tracks));
+  const double duration_s = in_seconds(duration_of(tracks));
   const StopSignal stop_signal;
   StatusLine line;
   line.say("glissade replay: " + std::to_string(tracks.size()) +
            (tracks.size() == 1 ? " glove waits" : " gloves wait") + " for a server at " + options.lcm.url);
   const std::vector<PlayedGlove> played =
       play_gloves(tracks, bus, &StopSignal::requested, [&](std::chrono::nanoseconds time) {
-        line.show(fixed_text(seconds_of(time), 1) + " s of " + fixed_text(duration_s, 1) + " s");
+        line.show(fixed_text(in_seconds(time), 1) + " s of " + fixed_text(duration_s, 1) + " s");
       });
   line.show({});
   nlohmann::json gloves = nlohmann::json::array();

@@ -10,6 +10,7 @@
 
 #include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/slide_check.h>
+#include <glissade/apps/durations.h>
 #include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
@@ -23,10 +24,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kPlottedChecks = 6;
-
-double seconds(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
 
 void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, const SlideCheckOptions& options,
                SlideCheck& check) {
@@ -96,7 +93,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   SlideCheck check;
   check.trajectory = name;
   check.has_goal = scene.X_WGoal.has_value();
-  check.duration_s = seconds(trajectory.duration());
+  check.duration_s = in_seconds(trajectory.duration());
   check.far_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
@@ -121,18 +118,18 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
       clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
     if (options.needs_curve) {
-      force.add(seconds(time), wrench.f.norm());
+      force.add(in_seconds(time), wrench.f.norm());
       curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
     }
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }
-  check.contact_s = seconds(contact_ticks * milliseconds(1));
+  check.contact_s = in_seconds(contact_ticks * milliseconds(1));
   clearance.finish();
   check.force = force.series();
   check.clearance = curve.take(name);
   check.clearance_min_m = clearance.least();
-  check.clearance_min_at_s = seconds(clearance.least_at() * milliseconds(1));
+  check.clearance_min_at_s = in_seconds(clearance.least_at() * milliseconds(1));
   note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.last_pose()), options, check);
   return check;
 }

@@ -8,6 +8,7 @@
 #include <system_error>
 #include <utility>
 
+#include <glissade/apps/durations.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/record/log_mcap.h>
 #include <glissade/apps/record/mcap_schemas.h>
@@ -29,10 +30,6 @@ using Json = nlohmann::json;
 
 constexpr const char* kWorld = "world";
 constexpr std::size_t kMostTriangles = 100'000;
-
-double in_seconds(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
 
 std::string numbered(const std::string& name, std::size_t number) {
   return name + "_" + std::to_string(number);

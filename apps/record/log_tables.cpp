@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/apps/durations.h>
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/progress.h>
@@ -21,14 +22,6 @@ namespace glissade::apps {
 namespace {
 
 using Columns = std::vector<std::string>;
-
-double seconds(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
-
-double microseconds(std::chrono::nanoseconds time) {
-  return std::chrono::duration<double, std::micro>(time).count();
-}
 
 /// A file that begins with the first row.
 class Table {
@@ -64,7 +57,7 @@ Columns glove_columns() {
   return columns;
 }
 
-Columns hand_columns() {
+Columns columns_of_hand() {
   Columns columns{"t_s",    "tick",     "hand",  "part",          "fx_N",        "fy_N",          "fz_N",
                   "tx_Nm",  "ty_Nm",    "tz_Nm", "contact_share", "state_age_s", "command_age_s", "energy_J",
                   "reason", "activity", "grasp", "x_m",           "y_m",         "z_m",           "qw",
@@ -113,7 +106,7 @@ class Tables {
         parts_(folder, "parts.csv",
                {"t_s",  "tick", "part", "gx_m", "gy_m", "gz_m", "gqw", "gqx",   "gqy",      "gqz",
                 "vx_m", "vy_m", "vz_m", "vqw",  "vqx",  "vqy",  "vqz", "state", "contacts", "contact_set_age_s"}),
-        hands_(folder, "hands.csv", hand_columns()),
+        hands_(folder, "hands.csv", columns_of_hand()),
         gloves_(folder, "gloves.csv", glove_columns()) {}
 
   void add(const devices::LogEvent& event) {
@@ -133,9 +126,9 @@ class Tables {
   void add(const haptics::TickRecord& tick) {
     ticks_.new_row()
         .add(tick.number)
-        .add(seconds(tick.time))
-        .add(microseconds(tick.time - tick.deadline))
-        .add(microseconds(tick.duration))
+        .add(in_seconds(tick.time))
+        .add(in_microseconds(tick.time - tick.deadline))
+        .add(in_microseconds(tick.duration))
         .add(tick.set_sequence)
         .add(std::ssize(tick.requests.all()))
         .add(std::int64_t{tick.is_stopped})
@@ -146,28 +139,28 @@ class Tables {
     for (std::int32_t p = 0; p < state.part_count; ++p) {
       const devices::HapticPartState& part = state.parts[static_cast<std::size_t>(p)];
       parts_.new_row()
-          .add(seconds(state.time))
+          .add(in_seconds(state.time))
           .add(state.sequence)
           .add(std::int64_t{p})
           .add(part.X_WG)
           .add(part.X_WV)
           .add(devices::name_of(part.state))
           .add(std::int64_t{part.contact_count})
-          .add(seconds(state.contact_set_age))
+          .add(in_seconds(state.contact_set_age))
           .end_row();
     }
     for (std::int32_t h = 0; h < state.hand_count; ++h) {
       const devices::HapticHandState& hand = state.hands[static_cast<std::size_t>(h)];
       CsvWriter& row = hands_.new_row();
-      row.add(seconds(state.time))
+      row.add(in_seconds(state.time))
           .add(state.sequence)
           .add(std::int64_t{h})
           .add(std::int64_t{hand.part})
           .add(hand.force_W)
           .add(hand.torque_V_W)
           .add(hand.contact_share)
-          .add(seconds(hand.state_age))
-          .add(seconds(hand.command_age))
+          .add(in_seconds(hand.state_age))
+          .add(in_seconds(hand.command_age))
           .add(devices::energy_left(hand))
           .add(to_text(recorded_reason(state, static_cast<std::size_t>(h))));
       row.add(devices::name_of(hand.visible.activity)).add(devices::name_of(hand.visible.grasp)).add(hand.visible.X_WH);
@@ -184,8 +177,8 @@ class Tables {
   void add(const devices::LoggedState& logged, std::chrono::nanoseconds time) {
     const devices::GloveState& state = logged.state;
     CsvWriter& row = gloves_.new_row();
-    row.add(seconds(time)).add(logged.device).add(state.sequence).add(state.X_WH).add(state.v_WH).add(state.w_WH);
-    row.add(state.grip).add(std::int64_t{state.is_enabled}).add(seconds(state.command_age));
+    row.add(in_seconds(time)).add(logged.device).add(state.sequence).add(state.X_WH).add(state.v_WH).add(state.w_WH);
+    row.add(state.grip).add(std::int64_t{state.is_enabled}).add(in_seconds(state.command_age));
     for (const double angle : state.joint_angles)
       row.add(angle);
     row.end_row();

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <glissade/apps/durations.h>
 #include <glissade/apps/run/run_status.h>
 #include <glissade/apps/run/run_watch.h>
 #include <glissade/apps/text.h>
@@ -15,10 +16,6 @@ using std::chrono::nanoseconds;
 constexpr nanoseconds kLost = std::chrono::milliseconds(500);
 /// A hand that takes and lets go faster than this is told of as it is in the end.
 constexpr nanoseconds kBetweenHolds = std::chrono::milliseconds(500);
-
-double in_seconds(nanoseconds time) {
-  return std::chrono::duration<double>(time).count();
-}
 
 }  // namespace
 

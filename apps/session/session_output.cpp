@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <glissade/apps/durations.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/run/session.h>
@@ -28,10 +29,6 @@ std::string formatted(const char* format, Values... values) {
   return buffer.data();
 }
 
-double microseconds(std::chrono::nanoseconds duration) {
-  return 1e-3 * static_cast<double>(duration.count());
-}
-
 std::string hash_text(std::uint64_t hash) {
   return formatted("%016llx", static_cast<unsigned long long>(hash));
 }
@@ -39,12 +36,13 @@ std::string hash_text(std::uint64_t hash) {
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
 std::string p50_p99_max(const realtime::LatencyHistogram& histogram) {
-  return formatted("%.1f / %.1f / %.1f us", microseconds(histogram.quantile(0.5)),
-                   microseconds(histogram.quantile(0.99)), microseconds(histogram.max()));
+  return formatted("%.1f / %.1f / %.1f us", in_microseconds(histogram.quantile(0.5)),
+                   in_microseconds(histogram.quantile(0.99)), in_microseconds(histogram.max()));
 }
 
 std::string p50_p99(const realtime::LatencyHistogram& histogram) {
-  return formatted("%.1f / %.1f us", microseconds(histogram.quantile(0.5)), microseconds(histogram.quantile(0.99)));
+  return formatted("%.1f / %.1f us", in_microseconds(histogram.quantile(0.5)),
+                   in_microseconds(histogram.quantile(0.99)));
 }
 
 void add_real_time_rows(const RealTimeFigures& figures, Rows& rows) {
@@ -64,7 +62,7 @@ void add_real_time_rows(const RealTimeFigures& figures, Rows& rows) {
 
 std::string stage_text(const collision::StageReport& stage, std::int64_t frames) {
   const auto each = [&](auto sum) { return static_cast<double>(sum) / static_cast<double>(frames); };
-  return formatted("%.1f in, %.1f out, %.1f us", each(stage.in), each(stage.out), each(microseconds(stage.time)));
+  return formatted("%.1f in, %.1f out, %.1f us", each(stage.in), each(stage.out), each(in_microseconds(stage.time)));
 }
 
 // Cost of the searches for contacts. The stages are those of the collision pipeline, which finds the bodies that are
@@ -74,7 +72,7 @@ void add_collision_rows(const Session& session, Rows& rows) {
   if (frames == 0) return;
   const collision::FrameReport& sum = session.collision;
   rows.emplace_back("collision frames", formatted("%lld, %.1f us each", static_cast<long long>(frames),
-                                                  microseconds(sum.total) / static_cast<double>(frames)));
+                                                  in_microseconds(sum.total) / static_cast<double>(frames)));
   rows.emplace_back("  moved objects", stage_text(sum.queue, frames));
   rows.emplace_back("  neighboring pairs", stage_text(sum.neighbor_finding, frames));
   rows.emplace_back("  pairs at hull planes", stage_text(sum.separating_planes, frames));
@@ -253,7 +251,7 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
       if (session.collision_frames == 0) return nullptr;
       return static_cast<double>(value) / static_cast<double>(session.collision_frames);
     };
-    return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(microseconds(sum.time))}};
+    return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(in_microseconds(sum.time))}};
   };
   const double tick_s = tick_seconds(session);
   nlohmann::json parts = nlohmann::json::array();
@@ -306,18 +304,18 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
     json["page_faults"] = server.page_faults;
     json["has_fifo_scheduling"] = server.scheduling.is_fifo;
     json["has_locked_memory"] = server.scheduling.has_locked_memory;
-    json["tick_us_p50"] = microseconds(server.haptic.duration.quantile(0.5));
-    json["tick_us_p99"] = microseconds(server.haptic.duration.quantile(0.99));
+    json["tick_us_p50"] = in_microseconds(server.haptic.duration.quantile(0.5));
+    json["tick_us_p99"] = in_microseconds(server.haptic.duration.quantile(0.99));
     for (const auto& [name, lateness] : {std::pair("lateness_us", &server.haptic.lateness),
                                          std::pair("bare_lateness_us", &session.real_time->bare_timer.lateness)}) {
-      json[std::string(name) + "_p50"] = microseconds(lateness->quantile(0.5));
-      json[std::string(name) + "_p99"] = microseconds(lateness->quantile(0.99));
-      json[std::string(name) + "_max"] = microseconds(lateness->max());
+      json[std::string(name) + "_p50"] = in_microseconds(lateness->quantile(0.5));
+      json[std::string(name) + "_p99"] = in_microseconds(lateness->quantile(0.99));
+      json[std::string(name) + "_max"] = in_microseconds(lateness->max());
     }
-    json["simulation_us_p50"] = microseconds(server.simulation.quantile(0.5));
-    json["simulation_us_p99"] = microseconds(server.simulation.quantile(0.99));
-    json["contact_set_age_us_p50"] = microseconds(server.contact_set_age.quantile(0.5));
-    json["contact_set_age_us_p99"] = microseconds(server.contact_set_age.quantile(0.99));
+    json["simulation_us_p50"] = in_microseconds(server.simulation.quantile(0.5));
+    json["simulation_us_p99"] = in_microseconds(server.simulation.quantile(0.99));
+    json["contact_set_age_us_p50"] = in_microseconds(server.contact_set_age.quantile(0.5));
+    json["contact_set_age_us_p99"] = in_microseconds(server.contact_set_age.quantile(0.99));
   }
   return json;
 }
@@ -359,7 +357,7 @@ std::string real_time_warning(const Session& session) {
         "parts lagged behind the hands",
         static_cast<long long>(calls.ended_early), static_cast<long long>(calls.calls));
   }
-  const double age_ms = 1e-3 * microseconds(session.real_time->server.contact_set_age.quantile(0.99));
+  const double age_ms = 1e-3 * in_microseconds(session.real_time->server.contact_set_age.quantile(0.99));
   if (age_ms > kOld_ms) {
     return formatted(
         "the machine did not keep up with real time: one contact set in a hundred was more than %.0f ms old, so what "

@@ -6,7 +6,9 @@
 
 // Boost 1.74 includes one of its own deprecated headers.
 #define BOOST_ALLOW_DEPRECATED_HEADERS
-#include <boost/geometry.hpp>
+#include <boost/geometry/algorithms/covered_by.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point.hpp>
 #include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
 

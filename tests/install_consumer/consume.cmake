@@ -1,5 +1,7 @@
 # Installs a build and lets strangers use it: cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DGENERATOR=... -P consume.cmake
-# Everything happens in BUILD_DIR/install_consumer. The strangers are told nothing but where the package is.
+# Everything happens in BUILD_DIR/install_consumer. The strangers are told nothing but where the package is; they compile
+# with g++, whatever has compiled the package.
+set(ENV{CXX} g++)
 set(work ${BUILD_DIR}/install_consumer)
 file(REMOVE_RECURSE ${work})
 
