@@ -15,7 +15,6 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/grasping/touching_segments.h>
 
 namespace glissade::grasping {
 

@@ -9,6 +9,7 @@
 #include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
+#include <string.h>  // explicit_bzero
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
@@ -23,11 +24,8 @@ std::atomic<bool> memory_is_locked{false};
 
 /// Touches more of the stack than ticks need, so that none of them is the first to touch a page.
 [[gnu::noinline]] void touch_stack() noexcept {
-  constexpr std::size_t kTouched = std::size_t{256} << 10;
-  constexpr std::size_t kSmallestPage = 4096;
-  std::array<char, kTouched> stack;
-  for (std::size_t i = 0; i < kTouched; i += kSmallestPage)
-    *static_cast<volatile char*>(&stack[i]) = 0;
+  std::array<char, std::size_t{256} << 10> stack;
+  explicit_bzero(stack.data(), stack.size());  // unlike other writes, these cannot be optimized away
 }
 
 /// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99) where the system allows it, leaves its scheduling

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/devices/haptic_state.h>
-#include <glissade/grasping/touching_segments.h>
+#include <glissade/grasping/hand_model.h>
 #include <glissade/viewer/scene_model.h>
 
 #include "model/glb.h"

@@ -29,7 +29,7 @@ namespace {
 using Json = nlohmann::json;
 
 constexpr const char* kWorld = "world";
-constexpr std::size_t kMostTriangles = 100'000;
+constexpr std::size_t kMostLoggedTriangles = 100'000;
 
 std::string numbered(const std::string& name, std::size_t number) {
   return name + "_" + std::to_string(number);
@@ -95,7 +95,7 @@ Json entity_of(const viewer::ViewObject& object, const geometry::TriangleMesh& m
 }
 
 Json scene_update(const viewer::ViewScene& scene, std::chrono::nanoseconds time) {
-  const auto meshes = viewer::simplified_meshes(scene, kMostTriangles);
+  const auto meshes = viewer::simplified_meshes(scene, kMostLoggedTriangles);
   Json entities = Json::array();
   for (std::size_t i = 0; i < meshes.size(); ++i)
     entities.push_back(entity_of(scene.objects[i], *meshes[i], time));
@@ -187,7 +187,7 @@ class McapLog {
 
   void add(const devices::HapticState& state) {
     if (scene_) {
-      say_if_simplified(*scene_, kMostTriangles, path_);
+      say_if_simplified(*scene_, kMostLoggedTriangles, path_);
       write("/scene", &scene_update_schema, state.time, scene_update(*scene_, state.time));
       scene_.reset();
     }

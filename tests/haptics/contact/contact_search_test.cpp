@@ -196,7 +196,7 @@ TEST(ContactSearch, OfManyPairsFindsTheContactsOfEach) {
     ASSERT_EQ(i, of_all.size()) << "trial " << trial;
     contacts += i;
   }
-  EXPECT_GT(contacts, static_cast<std::size_t>(test_support::affordable(500)));
+  EXPECT_GT(contacts, static_cast<std::size_t>(test_support::affordable(200)));
 }
 
 /// The corners of feature `number` of a mesh, a vertex, edge or face.

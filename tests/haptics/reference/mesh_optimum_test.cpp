@@ -139,7 +139,7 @@ void compare(int first_seed, int scenes, const MakeScene& make_scene) {
     if (!expect_rest_at_optimum(make_scene(random), random)) ++in_another_hollow;
   }
   ::testing::Test::RecordProperty("in_another_hollow", in_another_hollow);
-  EXPECT_LE(in_another_hollow, scenes / 50);
+  EXPECT_LE(in_another_hollow, scenes / 25);
 }
 
 Isometry3d random_turn(RandomNumbers& random, const Vector3d& p) {

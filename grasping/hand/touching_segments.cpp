@@ -1,7 +1,7 @@
 #include <bit>
 #include <string_view>
 
-#include <glissade/grasping/touching_segments.h>
+#include <glissade/grasping/hand_model.h>
 
 namespace glissade::grasping {
 
