@@ -10,6 +10,8 @@
 
 #include <glissade/realtime/latency_histogram.h>
 
+#include "seconds_each.h"
+
 namespace glissade::bench {
 
 /// Google Benchmark times whole loops. It has no quantiles of single iterations, leaves out no calls in between, and
@@ -44,12 +46,7 @@ class CallTimes {
   /// Makes all calls the time of one iteration of a benchmark with manual time: the counter `tick` is the mean.
   void report_tick(benchmark::State& state) const {
     state.SetIterationTime(std::chrono::duration<double>(total_).count());
-    if (count() > 0) state.counters["tick"] = tick_counter(count());
-  }
-
-  /// The time of each of the `ticks` ticks of an iteration, seconds.
-  static benchmark::Counter tick_counter(std::int64_t ticks) {
-    return {static_cast<double>(ticks), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert};
+    if (count() > 0) state.counters["tick"] = seconds_each(histogram_.count());
   }
 
  private:

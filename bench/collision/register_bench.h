@@ -8,6 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include "kernels/instruction_set.h"
+#include "seconds_each.h"
 
 namespace glissade::bench {
 
@@ -21,13 +22,6 @@ benchmark::internal::Benchmark* register_bench(const std::string& name, Run run)
                                         run(state);
                                       })
       ->Unit(benchmark::kMillisecond);
-}
-
-/// A counter: seconds for each of the `count` parts of an iteration.
-inline benchmark::Counter seconds_each(std::size_t count) {
-  using benchmark::Counter;
-  return {static_cast<double>(count),
-          static_cast<Counter::Flags>(Counter::kIsIterationInvariantRate | Counter::kInvert)};
 }
 
 }  // namespace glissade::bench

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "benches.h"
-#include "call_times.h"
+#include "seconds_each.h"
 #include "sliding_subject.h"
 
 namespace glissade::bench {
@@ -26,7 +26,7 @@ void turn_nut(benchmark::State& state, const SlidingSubject& subject, const test
     }
   }
   const double turns = static_cast<double>(ticks) / kTicksPerTurn;
-  state.counters["tick"] = CallTimes::tick_counter(ticks);
+  state.counters["tick"] = seconds_each(ticks);
   state.counters["turns"] = turns;
   state.counters["pitch_mm"] = 1e3 * test_support::nut_pitch();
   state.counters["advance_per_turn_mm"] = 1e3 * advance_m / turns;

@@ -9,7 +9,7 @@
 #include <glissade/apps/session/haptic_session.h>
 
 #include "benches.h"
-#include "call_times.h"
+#include "seconds_each.h"
 #include "temporary_folder.h"
 
 namespace glissade::bench {
@@ -38,7 +38,7 @@ void register_replay(const BenchOptions& options) {
     for (auto _ : state) {
       const apps::ReplayOutcome outcome = apps::replay_offline((**folder)->path(log), "", nullptr);
       state.SetIterationTime(std::chrono::duration<double>(outcome.elapsed).count());  // without reading the scene
-      state.counters["tick"] = CallTimes::tick_counter(outcome.ticks);
+      state.counters["tick"] = seconds_each(outcome.ticks);
       state.counters["wrong"] = outcome.is_same() ? 0 : 1;
     }
   })->UseManualTime();
