@@ -182,8 +182,7 @@ TEST(PaperSliding, NoVisiblePoseEverCollides) {
       ASSERT_TRUE(result.X_WV.matrix().allFinite());
       in_contact += result.pushing > 0 ? 1 : 0;
     });
-    EXPECT_GT(in_contact, kMilliseconds / 60)
-        << name_of(metaphor) << " hardly met anything";
+    EXPECT_GT(in_contact, kMilliseconds / 60) << name_of(metaphor) << " hardly met anything";
   }
 }
 
