@@ -78,7 +78,7 @@ class LcmBus::Connection {
   bool take_from_udpm() noexcept;
   void dispatch(std::string_view channel, std::span<const std::uint8_t> message) noexcept;
   void start_receiving();
-  void receive(int fd);
+  void receive(int fd, realtime::FifoShare& share);
 
   std::string url_;
   std::optional<MessageSeal> seal_;     ///< with a key
@@ -195,17 +195,20 @@ void LcmBus::Connection::start_receiving() {
   }
   thread_ = std::thread([this, fd] {
     realtime::name_this_thread("lcm-receive");
-    receive(fd);
+    realtime::FifoShare share(realtime::kLinkPriority, realtime::kLinkShare);
+    receive(fd, share);
   });
 }
 
-void LcmBus::Connection::receive(int fd) {
+void LcmBus::Connection::receive(int fd, realtime::FifoShare& share) {
   pollfd files[2] = {{.fd = wake_fd_, .events = POLLIN, .revents = 0}, {.fd = fd, .events = POLLIN, .revents = 0}};
   const auto take = [this] { return socket_ ? take_from_udpm() : lcm_handle(lcm_.get()) >= 0; };
   for (;;) {
     if (poll(files, 2, -1) >= 0) {
       if (files[0].revents != 0) return;
-      if (files[1].revents == 0 || take()) continue;
+      const bool is_well = files[1].revents == 0 || take();
+      share.check();  // others may send as much as they like
+      if (is_well) continue;
     } else if (errno == EINTR) {
       continue;
     }

@@ -31,7 +31,11 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
     states_.publish(state);
   });
   sender_ = std::make_unique<realtime::PeriodicThread>(
-      clock_, realtime::PeriodicThreadOptions{.period = options.send_period, .name = "lcm-send"},
+      clock_,
+      realtime::PeriodicThreadOptions{.period = options.send_period,
+                                      .fifo_priority = realtime::kLinkPriority,
+                                      .fifo_share = realtime::kLinkShare,
+                                      .name = "lcm-send"},
       [this](const realtime::PeriodicTick&) {
         if (commands_.update()) send(commands_.value().values());
         return true;

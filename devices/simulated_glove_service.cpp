@@ -12,7 +12,9 @@ SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, Simula
       observer_(std::move(observer)),
       state_(glove_.state()) {
   thread_ = std::make_unique<realtime::PeriodicThread>(
-      clock, realtime::PeriodicThreadOptions{.name = "glove"},
+      clock,
+      realtime::PeriodicThreadOptions{
+          .fifo_priority = realtime::kLinkPriority, .fifo_share = realtime::kLinkShare, .name = "glove"},
       [this](const realtime::PeriodicTick& now) { return tick(now.deadline); });
 }
 

@@ -13,6 +13,7 @@
 #include <sys/mman.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <glissade/realtime/periodic_thread.h>
@@ -28,21 +29,51 @@ std::atomic<bool> memory_is_locked{false};
   explicit_bzero(stack.data(), stack.size());  // unlike other writes, these cannot be optimized away
 }
 
-/// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99) where the system allows it, leaves its scheduling
-/// alone for `priority` 0, and sets its timer slack to the minimum. Never fails: a refusal shows in the result.
-ThreadScheduling request_punctual_scheduling(int priority) noexcept {
+bool set_policy(int policy, int priority) noexcept {
+  const sched_param parameters{.sched_priority = priority};
+  return pthread_setschedparam(pthread_self(), policy, &parameters) == 0;
+}
+
+std::chrono::nanoseconds time_of(clockid_t clock) noexcept {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
+}  // namespace
+
+ThreadScheduling schedule_this_thread(int priority) noexcept {
   ThreadScheduling scheduling;
   scheduling.has_locked_memory = memory_is_locked.load(std::memory_order_relaxed);
-  if (priority > 0) {
-    const sched_param parameters{.sched_priority = priority};
-    scheduling.is_fifo = pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
-  }
+  if (priority > 0) scheduling.is_fifo = set_policy(SCHED_FIFO, priority);
   constexpr unsigned long kOneNanosecond = 1;  // 0 would restore the default
   scheduling.has_minimal_timer_slack = prctl(PR_SET_TIMERSLACK, kOneNanosecond, 0UL, 0UL, 0UL) == 0;
   return scheduling;
 }
 
-}  // namespace
+int fifo_priority_of_this_thread() noexcept {
+  int policy = SCHED_OTHER;
+  sched_param parameters{};
+  if (pthread_getschedparam(pthread_self(), &policy, &parameters) != 0) return 0;
+  return policy == SCHED_FIFO ? parameters.sched_priority : 0;
+}
+
+bool TimeShare::is_within(std::chrono::nanoseconds now, std::chrono::nanoseconds computed) noexcept {
+  constexpr std::chrono::milliseconds kWindow{10};
+  if (!window_end_ || now >= *window_end_) {
+    window_end_ = now + kWindow;
+    computed_before_ = computed;
+  }
+  return computed - computed_before_ <= share_ * kWindow;
+}
+
+void FifoShare::check() noexcept {
+  if (!scheduling_.is_fifo) return;
+  const bool may_be_ahead = share_.is_within(time_of(CLOCK_MONOTONIC), time_of(CLOCK_THREAD_CPUTIME_ID));
+  if (may_be_ahead == is_ahead_) return;
+  is_ahead_ = may_be_ahead;
+  set_policy(may_be_ahead ? SCHED_FIFO : SCHED_OTHER, may_be_ahead ? priority_ : 0);
+}
 
 // With a limit, mlockall would succeed as long as the process is small, and later allocations would fail. Rights in a
 // container may not count, so the system is asked by the attempt to lock more than the limit: no page is touched.
@@ -84,11 +115,15 @@ PeriodicThread::PeriodicThread(Clock& clock, const PeriodicThreadOptions& option
   thread_ = std::thread([this, &clock, options, own_tick = std::move(tick), own = std::move(scheduling)]() mutable {
     if (!options.name.empty()) name_this_thread(options.name);
     touch_stack();
-    own.set_value(request_punctual_scheduling(options.fifo_priority));
+    FifoShare share(options.fifo_priority, options.fifo_share);
+    own.set_value(share.scheduling());
+    const bool is_for_good = options.fifo_share >= 1.0;
     run_periodic(
         clock, options.period, statistics_,
-        [this, &own_tick](const PeriodicTick& now) {
-          return !should_stop_.load(std::memory_order_relaxed) && own_tick(now);
+        [&](const PeriodicTick& now) {
+          const bool goes_on = !should_stop_.load(std::memory_order_relaxed) && own_tick(now);
+          if (!is_for_good) share.check();
+          return goes_on;
         },
         options.spin);
   });

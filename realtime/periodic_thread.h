@@ -1,11 +1,12 @@
 #pragma once
 
 /// A thread that calls a function, the tick function, at a fixed rate: `run_periodic` in a thread of its own. And what
-/// such a thread needs of its process: memory that is there when a tick touches it.
+/// such a thread needs of its system: a place ahead of other work, and memory that is there when a tick touches it.
 
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -15,10 +16,24 @@
 
 namespace glissade::realtime {
 
+/// SCHED_FIFO priorities of the threads between a device and its forces. A thread's work is done before that of those
+/// it has to wait for.
+inline constexpr int kHapticPriority = 80;
+inline constexpr int kLinkPriority = 75;        ///< receives states and sends commands, or the other way round
+inline constexpr int kSimulationPriority = 70;  ///< answers with contacts
+
+/// The kernel holds up all threads of a processor under SCHED_FIFO where they compute for nearly all of a second (by
+/// default 0.95 s, `sched_rt_runtime_us`), the haptic thread among them. So the others have their priority for a share
+/// of the time only, together with the haptic thread less than 0.95 of one processor.
+inline constexpr double kLinkShare = 0.1;  ///< receiving and sending, each
+inline constexpr double kSimulationShare = 0.4;
+inline constexpr double kSearchShare = 0.2;  ///< of a thread that searches for contacts
+
 /// Name, period and priority of a periodic thread.
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
-  int fifo_priority = 0;  ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
+  int fifo_priority = 0;    ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
+  double fifo_share = 1.0;  ///< as in `FifoShare`; 1: the priority is for good
   /// Time before each deadline for which the thread reads the clock instead of sleeping, as in `run_periodic`.
   std::chrono::nanoseconds spin{0};
   std::string name;  ///< as in `name_this_thread`; empty: that of the thread that starts it
@@ -41,6 +56,49 @@ struct ThreadScheduling {
   bool is_fifo = false;                  ///< the thread runs under SCHED_FIFO, ahead of every ordinary thread
   bool has_locked_memory = false;        ///< `lock_memory` had been granted when the thread started
   bool has_minimal_timer_slack = false;  ///< the kernel does not delay timers to batch wake-ups (default: by 50 µs)
+};
+
+/// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99) where the system allows it, leaves its scheduling
+/// alone for `priority` 0, and sets its timer slack to the minimum. Never fails: a refusal shows in the result.
+ThreadScheduling schedule_this_thread(int priority) noexcept;
+
+/// The priority of the calling thread under SCHED_FIFO; 0: an ordinary thread.
+int fifo_priority_of_this_thread() noexcept;
+
+/// Whether a thread is within its share of each window of time, by what it tells of its computing.
+class TimeShare {
+ public:
+  /// `share` is that of a window in which the thread may compute, 0 to 1.
+  explicit TimeShare(double share) : share_(share) {}
+
+  /// `now` is the time, `computed` all that the thread has computed so far.
+  bool is_within(std::chrono::nanoseconds now, std::chrono::nanoseconds computed) noexcept;
+
+ private:
+  double share_;
+  std::optional<std::chrono::nanoseconds> window_end_;
+  std::chrono::nanoseconds computed_before_{0};
+};
+
+/// A priority under SCHED_FIFO for a share of the time: a thread that has computed for longer in a window of 10 ms is
+/// an ordinary one until the next window. For the thread itself, which makes and uses the object. Calls the system, so
+/// it is not for the haptic thread.
+class FifoShare {
+ public:
+  /// Asks for `priority` as `schedule_this_thread` does.
+  FifoShare(int priority, double share)
+      : priority_(priority), share_(share), scheduling_(schedule_this_thread(priority)) {}
+
+  const ThreadScheduling& scheduling() const noexcept { return scheduling_; }
+
+  /// To be called often: at the end of a tick, or every millisecond of a long work.
+  void check() noexcept;
+
+ private:
+  int priority_;
+  TimeShare share_;
+  ThreadScheduling scheduling_;
+  bool is_ahead_ = true;
 };
 
 /// The thread starts in the constructor. The thread ends when the tick function returns false, on `stop()`, or in the

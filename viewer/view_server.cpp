@@ -87,7 +87,7 @@ class ViewServer::Service {
   void accept() {
     acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
       std::erase_if(connections_, [](const auto& connection) { return connection.expired(); });
-      if (error || connections_.size() >= kMostConnections) {
+      if (error || (connections_.size() >= kMostConnections && !close_oldest_idle())) {
         pause_.expires_after(kAcceptPause);  // without descriptors, the next one fails at once
         pause_.async_wait([this](beast::error_code) { accept(); });
         return;
@@ -100,6 +100,18 @@ class ViewServer::Service {
       connection->start();
       accept();
     });
+  }
+
+  /// So whoever opens connections and asks for nothing keeps nobody out. Returns whether there was an idle one.
+  bool close_oldest_idle() {
+    for (auto place = connections_.begin(); place != connections_.end(); ++place) {
+      const std::shared_ptr<Connection> connection = place->lock();
+      if (!connection || !connection->is_idle()) continue;
+      connection->close();
+      connections_.erase(place);
+      return true;
+    }
+    return false;
   }
 
   void add_client(beast::tcp_stream&& stream, const HttpRequest& request) {
@@ -162,7 +174,7 @@ class ViewServer::Service {
   std::vector<std::shared_ptr<LiveClient>> clients_;
   realtime::SpscRing<devices::HapticState> states_{kRingStates};
   std::atomic<bool> has_had_client_{false};
-  std::vector<std::weak_ptr<Connection>> connections_;
+  std::vector<std::weak_ptr<Connection>> connections_;  // the oldest first
   std::jthread making_;
   std::jthread serving_;  // joined first
 };

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::array<std::string_view, 4> kVerdictNames{"good", "can be better", "bad", "unknown"};
 
-constexpr const char* kNoFifo = "any busy program can hold the haptic thread up for milliseconds";
+constexpr const char* kNoFifo =
+    "any busy program can hold up the haptic thread, states of gloves and contacts for milliseconds";
 constexpr const char* kNoLockedMemory = "a page that the system has moved out costs a tick milliseconds";
 constexpr const char* kMendRights =
     "printf '%s - rtprio 90\\n%s - memlock unlimited\\n' \"$USER\" \"$USER\" | sudo tee "
@@ -41,10 +42,12 @@ Finding unknown(std::string name, std::string meaning) {
 
 Finding fifo() {
   realtime::SteadyClock clock;
-  realtime::PeriodicThread probe(clock, {.fifo_priority = 80}, [](const realtime::PeriodicTick&) { return false; });
+  realtime::PeriodicThread probe(clock, {.fifo_priority = realtime::kHapticPriority},
+                                 [](const realtime::PeriodicTick&) { return false; });
   probe.join();
   if (probe.scheduling().is_fifo) {
-    return {"SCHED_FIFO", Verdict::kGood, "granted", "the haptic thread runs ahead of every ordinary thread", ""};
+    return {"SCHED_FIFO", Verdict::kGood, "granted",
+            "the threads between a glove and its forces run ahead of every ordinary thread", ""};
   }
   return {"SCHED_FIFO", Verdict::kCanBeBetter, "refused", kNoFifo, kMendRights};
 }

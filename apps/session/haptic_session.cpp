@@ -23,7 +23,6 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr int kFifoPriority = 80;
 /// What is kept of a run without an end.
 constexpr std::chrono::minutes kKept{1};
 
@@ -203,14 +202,10 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   RunRecorders recorders(has_all ? settings.record : RecordSettings{},
                          real_time_session(scene, infos, grips, settings, period));
   realtime::SteadyClock clock;
-  haptics::HapticServer server(hands, *started.simulation, clock,
-                               [&sink](const devices::HapticState& sample) { sink.receive(sample); },
-                               {.period = period,
-                                .ticks = ticks,
-                                .fifo_priority = kFifoPriority,
-                                .spin = settings.spin,
-                                .observer = recorders.observer()});
-  realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = kFifoPriority},
+  haptics::HapticServer server(
+      hands, *started.simulation, clock, [&sink](const devices::HapticState& sample) { sink.receive(sample); },
+      {.period = period, .ticks = ticks, .spin = settings.spin, .observer = recorders.observer()});
+  realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
   if (!missing.empty()) watch({.sentences = {missing}});

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What the coupling of a part exerts on the hands that hold it, about the origin of the visible part, in world axes.
+/// What the coupling of a part exerts on the hands that hold it, about the origin of the visible part, in world axes:
+/// zero while no contact pushes.
 
 #include <cstddef>
 

@@ -2,9 +2,12 @@
 
 #include <utility>
 
-#include <glissade/realtime/periodic_thread.h>
-
 namespace glissade::haptics {
+namespace {
+
+constexpr std::int64_t kWorkOfCheck = 500'000;  // about half a millisecond
+
+}  // namespace
 
 SearchThread::SearchThread(std::int64_t work_ahead)
     : work_ahead_(work_ahead), thread_([this](const std::stop_token& stop) {
@@ -15,7 +18,7 @@ SearchThread::SearchThread(std::int64_t work_ahead)
 void SearchThread::begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set) {
   {
     const std::lock_guard lock(mutex_);
-    job_ = {&search, &request, &set};
+    job_ = {&search, &request, &set, realtime::fifo_priority_of_this_thread()};
     work_ = 0;
     allowed_ = 0;
     lock_at_ = work_ahead_;
@@ -65,6 +68,10 @@ bool SearchThread::cancel() {
 void SearchThread::spend(std::int64_t work) {
   const std::int64_t done = work_.load(std::memory_order_relaxed) + work;
   work_.store(done, std::memory_order_relaxed);  // only this thread writes while it searches
+  if (priority_ && done > check_at_) {
+    check_at_ = done + kWorkOfCheck;
+    priority_->check();
+  }
   if (done <= lock_at_) return;
   std::unique_lock lock(mutex_);
   changed_.notify_all();
@@ -77,12 +84,19 @@ void SearchThread::spend(std::int64_t work) {
   lock_at_ = done <= allowed_ ? allowed_ : at_most_ahead();
 }
 
+/// Once only: whoever asks may be an ordinary thread for a while.
+void SearchThread::follow(int priority_of_asker) {
+  if (priority_of_asker > 1 && !priority_) priority_.emplace(priority_of_asker - 1, realtime::kSearchShare);
+  check_at_ = 0;
+}
+
 void SearchThread::run(const std::stop_token& stop) {
   stop_ = stop;
   std::unique_lock lock(mutex_);
   while (changed_.wait(lock, stop, [this] { return !is_done(); })) {
     const Job job = job_;
     lock.unlock();
+    follow(job.priority_of_asker);
     std::exception_ptr error;
     try {
       job.search->find(*job.request, *job.set);

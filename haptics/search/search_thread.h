@@ -7,10 +7,12 @@
 #include <cstdint>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <stop_token>
 #include <thread>
 
 #include <glissade/collision/query_types.h>
+#include <glissade/realtime/periodic_thread.h>
 
 #include "search/candidate_search.h"
 #include "work/work_budget.h"
@@ -28,7 +30,8 @@ class SearchThread final : public collision::WorkMeter {
   /// Waits for a search that is under way.
   ~SearchThread() = default;
 
-  /// Starts a search. The search before must be done or cancelled: `wait` has returned true, or `cancel` has been
+  /// Starts a search, with the priority behind that of the calling thread, if this one runs under SCHED_FIFO. The
+  /// search before must be done or cancelled: `wait` has returned true, or `cancel` has been
   /// called. The three objects must not be used until this is so again. The search must have this object as its meter.
   void begin(CandidateSearch& search, const CandidateRequest& request, CandidateSet& set);
 
@@ -56,9 +59,11 @@ class SearchThread final : public collision::WorkMeter {
     CandidateSearch* search = nullptr;
     const CandidateRequest* request = nullptr;
     CandidateSet* set = nullptr;
+    int priority_of_asker = 0;  // under SCHED_FIFO
   };
 
   void run(const std::stop_token& stop);
+  void follow(int priority_of_asker);
   bool is_done() const { return job_.search == nullptr; }  // under the lock
   std::int64_t at_most_ahead() const;
 
@@ -74,8 +79,10 @@ class SearchThread final : public collision::WorkMeter {
   std::atomic<std::int64_t> work_{0};
   std::int64_t allowed_ = 0;
   std::atomic<std::int64_t> lock_at_{0};  // with more work the thread takes the lock
-  std::stop_token stop_;                  // of the thread, which alone uses it
-  std::jthread thread_;                   // last: it ends before the members that it uses
+  std::stop_token stop_;                  // this and the next two: of the thread, which alone uses them
+  std::optional<realtime::FifoShare> priority_;
+  std::int64_t check_at_ = 0;  // with more work, its share is checked
+  std::jthread thread_;        // last: it ends before the members that it uses
 };
 
 }  // namespace glissade::haptics

@@ -14,7 +14,8 @@ namespace http = boost::beast::http;
 
 namespace {
 
-constexpr std::chrono::seconds kPatience{60};
+constexpr std::chrono::seconds kPatienceForRequest{5};
+constexpr std::chrono::seconds kPatienceForReader{60};  // of an answer, which may be a large model
 constexpr std::size_t kLongestHeader = 16'384;
 
 /// The page is one file and talks to its own server only: `host` is its name with the port.
@@ -46,8 +47,10 @@ Connection::Connection(beast::tcp_stream&& stream, const Answers& answers, Upgra
 void Connection::read() {
   parser_.emplace();
   parser_->header_limit(kLongestHeader);
-  stream_.expires_after(kPatience);
+  stream_.expires_after(kPatienceForRequest);
+  is_idle_ = true;
   http::async_read(stream_, buffer_, *parser_, [self = shared_from_this()](beast::error_code error, std::size_t) {
+    self->is_idle_ = false;
     if (!error) return self->answer();
     const beast::error_code end = http::error::end_of_stream;
     if (error == end || error.category() != end.category()) return;  // nobody waits for an answer
@@ -92,7 +95,7 @@ void Connection::send(http::status status, std::string_view type, std::string_vi
                        status != http::status::bad_request);
   response->body() = beast::span<const char>(content.data(), content.size());
   response->prepare_payload();
-  stream_.expires_after(kPatience);
+  stream_.expires_after(kPatienceForReader);
   http::async_write(
       stream_, *response,
       [self = shared_from_this(), response, owner = std::move(owner)](beast::error_code error, std::size_t) {

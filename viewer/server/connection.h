@@ -31,6 +31,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Connection(boost::beast::tcp_stream&& stream, const Answers& answers, Upgrade upgrade);
 
   void start() { read(); }
+  /// Whether it waits for a request, the first one or another.
+  bool is_idle() const noexcept { return is_idle_; }
+  void close() { stream_.close(); }
 
  private:
   void read();
@@ -41,6 +44,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::beast::tcp_stream stream_;
   const Answers& answers_;
   Upgrade upgrade_;
+  bool is_idle_ = true;
   boost::beast::flat_buffer buffer_;
   std::optional<boost::beast::http::request_parser<boost::beast::http::empty_body>> parser_;
 };

