@@ -24,7 +24,7 @@ inline constexpr int kSimulationPriority = 70;  ///< answers with contacts
 
 /// The kernel holds up all threads of a processor under SCHED_FIFO where they compute for nearly all of a second (by
 /// default 0.95 s, `sched_rt_runtime_us`), the haptic thread among them. So the others have their priority for a share
-/// of the time only, together with the haptic thread less than 0.95 of one processor.
+/// of the time only. With one glove, the shares are 0.8 of one processor together.
 inline constexpr double kLinkShare = 0.1;  ///< receiving and sending, each
 inline constexpr double kSimulationShare = 0.4;
 inline constexpr double kSearchShare = 0.2;  ///< of a thread that searches for contacts

@@ -102,7 +102,8 @@ class ViewServer::Service {
     });
   }
 
-  /// So whoever opens connections and asks for nothing keeps nobody out. Returns whether there was an idle one.
+  /// Makes room for a new connection: many that ask for nothing keep no page out. Returns whether there was an idle
+  /// one.
   bool close_oldest_idle() {
     for (auto place = connections_.begin(); place != connections_.end(); ++place) {
       const std::shared_ptr<Connection> connection = place->lock();

@@ -84,7 +84,7 @@ void SearchThread::spend(std::int64_t work) {
   lock_at_ = done <= allowed_ ? allowed_ : at_most_ahead();
 }
 
-/// Once only: whoever asks may be an ordinary thread for a while.
+/// Takes the place behind the first asker that has a priority, and keeps it. A later asker may have used up its share.
 void SearchThread::follow(int priority_of_asker) {
   if (priority_of_asker > 1 && !priority_) priority_.emplace(priority_of_asker - 1, realtime::kSearchShare);
   check_at_ = 0;
