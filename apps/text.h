@@ -29,12 +29,12 @@ std::string in_quotes(std::string_view text);
 /// `text` on one line: runs of line breaks and other control characters become one space.
 std::string one_line(std::string_view text);
 
-/// The texts joined by ", ".
+/// The texts with a separator between each and the next.
 template <typename Texts>
-std::string joined(const Texts& texts) {
+std::string joined(const Texts& texts, std::string_view separator = ", ") {
   std::string result;
   for (const auto& text : texts) {
-    if (!result.empty()) result += ", ";
+    if (!result.empty()) result += separator;
     result += text;
   }
   return result;

@@ -113,12 +113,15 @@ DeviceDescriptor simulated_glove_descriptor() {
 }
 
 SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters)
-    : script_X_WH_(std::move(script_X_WH)), parameters_(parameters), descriptor_(simulated_glove_descriptor()) {
+    : script_X_WH_(std::move(script_X_WH)),
+      parameters_(parameters),
+      descriptor_(simulated_glove_descriptor()),
+      script_time_(script_X_WH_.first_time()) {
   check(parameters_);
   descriptor_.frozen = parameters_.frozen;
-  state_.time = script_X_WH_.first_time();
-  state_.grip = grip_at(state_.time);
-  state_.X_WH = script_X_WH_.pose_at(state_.time);
+  state_.time = script_time_;
+  state_.grip = grip_at(script_time_);
+  state_.X_WH = script_X_WH_.pose_at(script_time_);
   q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
   const JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
@@ -126,19 +129,20 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
   }
 }
 
-GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& newest) noexcept {
+GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace) noexcept {
   const GloveCommand& command = newest.values();
   for (std::chrono::nanoseconds left = dt; left > std::chrono::nanoseconds::zero();) {
     const std::chrono::nanoseconds now = std::min(left, kLargestStep);
     const double h = std::chrono::duration<double>(now).count();
-    move_hand(h, command);
-    turn_hand(h, command);
+    move_hand(h, pace, command);
+    turn_hand(h, pace, command);
     move_fingers(h, command);
     state_.time += now;
+    script_time_ += pace == 1.0 ? now : std::chrono::nanoseconds(std::llround(pace * static_cast<double>(now.count())));
     left -= now;
   }
   ++state_.sequence;
-  state_.grip = grip_at(state_.time);
+  state_.grip = grip_at(script_time_);
   return state_;
 }
 
@@ -149,14 +153,14 @@ std::int64_t SimulatedGlove::grip_at(std::chrono::nanoseconds time) const noexce
 }
 
 JointValues SimulatedGlove::aim_of_fingers() const noexcept {
-  if (!parameters_.fingers.empty()) return angles_at(parameters_.fingers, state_.time);
-  const bool is_open = grip_at(state_.time) % 2 == 0;
+  if (!parameters_.fingers.empty()) return angles_at(parameters_.fingers, script_time_);
+  const bool is_open = grip_at(script_time_) % 2 == 0;
   return is_open && parameters_.open_posture ? *parameters_.open_posture : parameters_.grasp_posture;
 }
 
-void SimulatedGlove::move_hand(double h, const GloveCommand& command) noexcept {
-  const Eigen::Vector3d p_WScript = script_X_WH_.pose_at(state_.time).translation();
-  const Eigen::Vector3d v_WScript = script_X_WH_.velocity_at(state_.time).v_WB;
+void SimulatedGlove::move_hand(double h, double pace, const GloveCommand& command) noexcept {
+  const Eigen::Vector3d p_WScript = script_X_WH_.pose_at(script_time_).translation();
+  const Eigen::Vector3d v_WScript = pace * script_X_WH_.velocity_at(script_time_).v_WB;
   const Eigen::Vector3d f_H_W = parameters_.wearer_stiffness * (p_WScript - state_.X_WH.translation()) +
                                 parameters_.wearer_damping * (v_WScript - state_.v_WH) -
                                 parameters_.arm_damping * state_.v_WH + command.f_H_W;
@@ -164,9 +168,9 @@ void SimulatedGlove::move_hand(double h, const GloveCommand& command) noexcept {
   state_.X_WH.translation() += h * state_.v_WH;
 }
 
-void SimulatedGlove::turn_hand(double h, const GloveCommand& command) noexcept {
-  const Eigen::Quaterniond q_WScript(script_X_WH_.pose_at(state_.time).linear());
-  const Eigen::Vector3d w_WScript = script_X_WH_.velocity_at(state_.time).w_WB;
+void SimulatedGlove::turn_hand(double h, double pace, const GloveCommand& command) noexcept {
+  const Eigen::Quaterniond q_WScript(script_X_WH_.pose_at(script_time_).linear());
+  const Eigen::Vector3d w_WScript = pace * script_X_WH_.velocity_at(script_time_).w_WB;
   const Eigen::Vector3d to_script_W = rotation_vector(q_WScript * q_WH_.conjugate());
   // The inertia is the same about every axis, so there is no gyroscopic torque.
   const Eigen::Vector3d t_H_W = parameters_.wearer_rotational_stiffness * to_script_W +

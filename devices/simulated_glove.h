@@ -83,20 +83,25 @@ class SimulatedGlove {
   const GloveState& state() const noexcept { return state_; }
 
   /// Advances the simulation by `dt` under the constant command `newest`. Returns the new state: its sequence is higher
-  /// by one, its time later by `dt`. For dt ≤ 0, only the sequence changes.
-  GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest) noexcept;
+  /// by one, its time later by `dt`. For dt ≤ 0, only the sequence changes. The wearer goes on in the script at `pace`
+  /// times its speed, from 0 (the wearer stops and waits) to 1.
+  GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
+
+  /// The time of the script at which the wearer is.
+  std::chrono::nanoseconds script_time() const noexcept { return script_time_; }
 
  private:
   std::int64_t grip_at(std::chrono::nanoseconds time) const noexcept;
   JointValues aim_of_fingers() const noexcept;
-  void move_hand(double h, const GloveCommand& command) noexcept;
-  void turn_hand(double h, const GloveCommand& command) noexcept;
+  void move_hand(double h, double pace, const GloveCommand& command) noexcept;
+  void turn_hand(double h, double pace, const GloveCommand& command) noexcept;
   void move_fingers(double h, const GloveCommand& command) noexcept;
 
   geometry::PoseTrajectory script_X_WH_;
   SimulatedGloveParameters parameters_;
   DeviceDescriptor descriptor_;
   GloveState state_;
+  std::chrono::nanoseconds script_time_;
   Eigen::Quaterniond q_WH_;
 };
 

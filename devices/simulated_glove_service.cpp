@@ -3,11 +3,14 @@
 
 #include <glissade/devices/simulated_glove_service.h>
 
+#include "lcm/wearers_view.h"
+
 namespace glissade::devices {
 
 SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
                                              const LcmGloveHostOptions& options, Observer observer)
-    : host_(std::move(bus), glove.descriptor(), options),
+    : host_(bus, glove.descriptor(), options),
+      view_(std::make_unique<WearersView>(bus)),
       glove_(std::move(glove)),
       observer_(std::move(observer)),
       state_(glove_.state()) {
@@ -37,16 +40,24 @@ bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
     if (last_deadline_) passed = deadline - *last_deadline_;  // more than a period where deadlines were skipped
     last_deadline_ = deadline;
   }
-  state_ = glove_.step(passed, command);
+  const std::chrono::nanoseconds script_before = glove_.script_time();
+  state_ = glove_.step(passed, command, pace_for(age_of_answers(command)));
+  const std::chrono::nanoseconds script_passed = glove_.script_time() - script_before;
   state_.time = deadline;  // a real glove's clock runs on, also while the wearer waits
   send(state_);
   if (observer_ && !observer_(state_, command)) host_.stop();
-  script_time_.store(script_time() + passed, std::memory_order_relaxed);
+  script_time_.store(script_time() + script_passed, std::memory_order_relaxed);
+  waited_.store(waited() + passed - script_passed, std::memory_order_relaxed);
   if (!should_end_.load(std::memory_order_acquire)) return true;
   constexpr int kLongestEnd = 100;  // periods; longer than any fade of this glove
   const GloveCommand& values = command.values();
   const bool is_at_rest = values.f_H_W.isZero(0.0) && values.t_H_W.isZero(0.0) && values.joint_torques == JointValues{};
   return !is_at_rest && ++ending_ticks_ < kLongestEnd;
+}
+
+/// Of what the wearer sees and feels, the older.
+std::chrono::nanoseconds SimulatedGloveService::age_of_answers(const SafeCommand& command) const noexcept {
+  return std::max(command.age(), view_->age().value_or(std::chrono::nanoseconds(0)));
 }
 
 // A state that cannot be encoded or sent counts as lost on the way: the server sees the gap in the sequence.

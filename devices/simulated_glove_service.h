@@ -17,10 +17,14 @@
 
 namespace glissade::devices {
 
+class WearersView;
+
 /// The service runs from construction to `stop` or destruction. The simulated hand waits at the start of its script,
 /// i.e. of its given trajectory, until the first command arrives. So the server, which sends the commands, and the
 /// glove may start in either order. From the first command on, the script follows the clock, even if the thread misses
-/// periods.
+/// periods, as long as the wearer's hand is answered: a wearer who sees the parts on the channel HAPTIC_STATE slows
+/// down when they lag behind the hand or the server is slow, stops when they stand still, and gives up waiting after a
+/// second.
 class SimulatedGloveService {
  public:
   /// Gets the new state and the command that led to it, in each period, in the thread of the service. Returns whether
@@ -39,6 +43,9 @@ class SimulatedGloveService {
   /// results of the functions below no longer change.
   void stop();
 
+  /// How much longer than the script the wearer has taken because answers were old. Any thread.
+  std::chrono::nanoseconds waited() const noexcept { return waited_.load(std::memory_order_relaxed); }
+
   /// Greatest norm of all commanded forces, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
   /// Statistics of the messages from the server. Any thread.
@@ -46,14 +53,17 @@ class SimulatedGloveService {
 
  private:
   bool tick(std::chrono::nanoseconds deadline) noexcept;
+  std::chrono::nanoseconds age_of_answers(const SafeCommand& command) const noexcept;
   void send(const GloveState& state) noexcept;
 
   LcmGloveHost host_;
+  std::unique_ptr<WearersView> view_;
   SimulatedGlove glove_;
   Observer observer_;                                      ///< may be empty
   GloveState state_;                                       ///< as sent
   std::optional<std::chrono::nanoseconds> last_deadline_;  ///< set once a command has arrived
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
+  std::atomic<std::chrono::nanoseconds> waited_{std::chrono::nanoseconds(0)};
   double greatest_force_ = 0.0;
   std::atomic<bool> should_end_{false};
   int ending_ticks_ = 0;

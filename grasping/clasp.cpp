@@ -96,6 +96,7 @@ class Clasp::Iteration {
     posture_ = target_;
     place_links();
     wait();
+    was_free_ = false;
   }
 
   void forget_contacts() {
@@ -104,6 +105,7 @@ class Clasp::Iteration {
   }
 
   void lose_track() {
+    was_free_ = was_free_ || state_ == ClaspState::kClasping;
     wait();
     state_ = ClaspState::kLost;
   }
@@ -159,19 +161,21 @@ class Clasp::Iteration {
     forget_contacts();
   }
 
-  /// Begins at the target if it is free.
+  /// Begins at the target if it is free. Where it is not, a chain that was lost goes on from where it was.
   bool begin() {
     std::swap(posture_, target_);
     place_links();
-    if (bodies_.is_free()) {
-      state_ = ClaspState::kClasping;
+    const bool begins_at_target = bodies_.is_free();
+    if (begins_at_target) {
       target_ = posture_;
-      return true;
+    } else {
+      std::swap(posture_, target_);
+      place_links();
     }
-    std::swap(posture_, target_);
-    place_links();
-    state_ = ClaspState::kWaiting;
-    return false;
+    const bool begins = begins_at_target || (was_free_ && bodies_.is_free());
+    state_ = begins ? ClaspState::kClasping : ClaspState::kWaiting;
+    if (begins) was_free_ = false;
+    return begins;
   }
 
   void place_links() {
@@ -203,6 +207,7 @@ class Clasp::Iteration {
   haptics::CertifiedBodies bodies_;
   ChainStepFinder finder_;
   ClaspState state_ = ClaspState::kWaiting;
+  bool was_free_ = false;  // when the track was lost
   Posture posture_;
   Posture target_;
   Posture next_;

@@ -81,8 +81,9 @@ class Clasp {
   /// finite is ignored: the posture stays, and touches what it touched.
   void advance(const Posture& target);
 
-  /// The tracker has not seen the hand for a while. Nothing touches any more; the clasp begins anew once a target is
-  /// free, wherever that is.
+  /// The tracker has not seen the hand for a while. Nothing touches any more. The clasp begins anew at the next target
+  /// that is free, wherever that is; where a target is inside something, from where the chain was, if that is still
+  /// free.
   void lose_track();
 
   /// Nothing touches any more, until the next call of `advance`: nobody knows where the hand wants to go.

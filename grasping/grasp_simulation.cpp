@@ -300,7 +300,8 @@ class GraspSimulation::Life {
   }
 
   /// A part that is pushed follows the push, and is released when no hand pushes it any more. A hand that is about to
-  /// take hold of it pushes it no farther, and one that has just let go of it leaves it where it is.
+  /// take hold of it pushes it no farther, one that has just let go of it leaves it where it is, and so does one that
+  /// has been lost and now comes late.
   void note_push(std::size_t p) {
     if (parts_.is_scripted(p) || is_held(p)) return;
     Push& push = pushes_[p];
@@ -309,7 +310,7 @@ class GraspSimulation::Life {
     const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
     const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
     for (const GraspingHand& hand : hands_) {
-      if (!hand.is_lost() && !hand.closes_round(body) && !hand.has_just_left(p))
+      if (!hand.is_lost() && !hand.is_late() && !hand.closes_round(body) && !hand.has_just_left(p))
         push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
     }
     if (push.is_empty() && was_pushed) parts_.release(p);

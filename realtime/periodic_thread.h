@@ -59,7 +59,8 @@ struct ThreadScheduling {
 };
 
 /// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99) where the system allows it, leaves its scheduling
-/// alone for `priority` 0, and sets its timer slack to the minimum. Never fails: a refusal shows in the result.
+/// alone for `priority` 0, and sets its timer slack to the minimum. Where it does not allow it, asks for short slices
+/// of time from `kLinkPriority` on: such threads compute little at a time. Never fails: a refusal shows in the result.
 ThreadScheduling schedule_this_thread(int priority) noexcept;
 
 /// The priority of the calling thread under SCHED_FIFO; 0: an ordinary thread.

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -10,12 +11,15 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/scene_warnings.h>
+#include <glissade/apps/durations.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/lcm_option.h>
+#include <glissade/apps/run/missed_goal.h>
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/session/haptic_session.h>
@@ -37,13 +41,14 @@ constexpr const char* kDemoFooter =
     "it with its fingers, carries it to its seat on a door module, lets go and withdraws.\n"
     "\n"
     "The hand follows a script, which is scaled in time to --seconds, and yields to the forces that it receives. In\n"
-    "real time, glove and server communicate over LCM, 1000 times a second. If the script of --scene has columns for\n"
+    "real time, glove and server communicate over LCM, 1000 times a second; where the machine does not keep up, the\n"
+    "wearer waits for what is visible, and the run takes longer. If the script of --scene has columns for\n"
     "the joints, the hand takes hold of movable objects with its fingers; otherwise it holds the first one rigidly.\n"
     "Other movable objects lie where they are, and objects with 'moves: FILE' follow their own scripts. With\n"
     "--offline, everything runs in one thread on a simulated clock, with the same result every time.\n"
     "\n"
     "After the run, brute force checks every visible pose, i.e. every pose at which parts and hands with fingers were\n"
-    "shown. If a pose collides, the exit code is 1.\n"
+    "shown. If a pose collides, or if the part misses the goal of the scene, the exit code is 1.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
@@ -51,6 +56,12 @@ constexpr const char* kDemoFooter =
     "  glissade demo --fingers --seconds 6 --report report\n"
     "  glissade demo --offline --seconds 2 --json\n"
     "  glissade demo --seconds 3 --record demo.lcmlog";
+
+/// How much longer than its script a run may take because the wearer waits: so many times as long, but at most so long.
+constexpr double kMostWaiting = 4.0;
+constexpr double kMostWaiting_s = 120.0;
+/// Shorter waits are not told.
+constexpr std::chrono::milliseconds kToldWaiting{100};
 
 struct DemoOptions {
   double seconds = 10.0;
@@ -101,22 +112,31 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
   const auto bus = connect_to_lcm(options.lcm_url);
   realtime::SteadyClock clock;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
+  const auto should_stop = [&] {
+    return StopSignal::requested() || glove.script_time() >= std::chrono::milliseconds(ticks);
+  };
   StatusLine line;
   SessionHand hand;
   if (!script.fingers.empty()) hand = {.part = std::nullopt, .fingers = grasping::HandShape{}};
-  return run_session(demo.scene, bus,
-                     {.hands = {hand},
-                      .choice = options.choice,
-                      .seconds = 1e-3 * static_cast<double>(ticks),
-                      .period = haptics::kTickPeriod,
-                      .record = record_of(options),
-                      .view_port = options.view_port,
-                      .waits_for_page = true},
-                     &StopSignal::requested, [&](const RunNews& news) {
-                       for (const std::string& sentence : news.sentences)
-                         line.say("glissade demo: " + sentence);
-                       line.show(news.status);
-                     });
+  const double seconds = 1e-3 * static_cast<double>(ticks);
+  Session session = run_session(demo.scene, bus,
+                                {.hands = {hand},
+                                 .choice = options.choice,
+                                 .seconds = seconds,
+                                 .longer_s = std::min(kMostWaiting * seconds, kMostWaiting_s),
+                                 .period = haptics::kTickPeriod,
+                                 .record = record_of(options),
+                                 .view_port = options.view_port,
+                                 .waits_for_page = true},
+                                should_stop, [&](const RunNews& news) {
+                                  for (const std::string& sentence : news.sentences)
+                                    line.say("glissade demo: " + sentence);
+                                  line.show(news.status);
+                                });
+  if (glove.waited() > kToldWaiting)
+    say("glissade demo: the wearer waited " + fixed_text(in_seconds(glove.waited()), 1) +
+        " s in all for the visible hand and part, which lagged behind");
+  return session;
 }
 
 int run(const DemoOptions& options) {
@@ -127,9 +147,11 @@ int run(const DemoOptions& options) {
   const Session session = options.offline
                               ? run_session_offline(demo.scene, script, ticks, options.choice, record_of(options))
                               : run_in_real_time(demo, script, ticks, options);
-  conclude(session, demo.scene,
-           "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""), options.json,
-           options.verbose, options.report);
+  const SessionSummary summary = conclude(
+      session, demo.scene, "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""),
+      options.json, options.verbose, options.report);
+  const bool is_missed = summary.goal_reached == false && !StopSignal::requested();
+  if (is_missed) throw std::runtime_error(why_goal_is_missed(summary, session, demo.scene));
   return 0;
 }
 

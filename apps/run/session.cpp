@@ -50,7 +50,7 @@ HandSummary summarize_hand(const Session& session, std::size_t h, const SessionC
   HandSummary summary;
   summary.device = session.devices[h];
   summary.has_fingers = session.hand_models[h] != nullptr;
-  if (summary.has_fingers) summary.colliding_postures = check.colliding_ticks_of_hand(h, *session.hand_models[h]);
+  summary.colliding_postures = check.colliding_ticks_of_hand(h);
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const devices::HapticHandState& hand = samples.hand(i, h);
     for (std::size_t k = 0; k < devices::kLimitReasons.size(); ++k)
@@ -81,12 +81,14 @@ std::int64_t SessionSummary::colliding_poses() const {
   return sum;
 }
 
-SessionSummary summarize(const Session& session, const HapticScene& scene) {
+SessionSummary summarize(const Session& session, const HapticScene& scene,
+                         std::optional<std::chrono::milliseconds> patience) {
   const SessionRecorder& samples = *session.samples;
   SessionSummary summary;
   summary.ticks = session.ticks;
   summary.samples = static_cast<std::int64_t>(samples.size());
-  const SessionCheck check(samples, scene);
+  const SessionCheck check(samples, scene, session.hand_models, patience);
+  summary.checked = check.checked_ticks();
   for (std::size_t p = 0; p < samples.parts(); ++p)
     summary.parts.push_back(summarize_part(samples, p, scene, check));
   for (std::size_t h = 0; h < samples.hands(); ++h)

@@ -78,6 +78,7 @@ struct HandSummary {
 struct SessionSummary {
   std::int64_t ticks = 0;
   std::int64_t samples = 0;  ///< kept ticks
+  std::int64_t checked = 0;  ///< of these, the ticks whose poses were checked for collisions
   std::vector<PartSummary> parts;
   std::vector<HandSummary> hands;
   std::optional<bool> goal_reached;  ///< none when the scene has no goal
@@ -87,8 +88,10 @@ struct SessionSummary {
   std::int64_t colliding_poses() const;
 };
 
-/// Computes the summary. Checks the visible poses of all parts and hands by brute force (`SessionCheck`).
-SessionSummary summarize(const Session& session, const HapticScene& scene);
+/// Computes the summary. Checks the visible poses of all parts and hands by brute force, with a `patience` those that
+/// it can check within it (`SessionCheck`).
+SessionSummary summarize(const Session& session, const HapticScene& scene,
+                         std::optional<std::chrono::milliseconds> patience = {});
 
 /// The summary as one JSON object; figures that an offline run does not have are null.
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);
@@ -108,9 +111,9 @@ inline constexpr const char* kVerboseHelp =
 std::string real_time_warning(const Session& session);
 
 /// Prints the summary as text or JSON, warns if the simulation did not keep up with real time, and writes the report
-/// unless `report_folder` is empty. Throws std::runtime_error
-/// when a visible pose collides, or when the recording is not whole.
-void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
-              const std::string& report_folder);
+/// unless `report_folder` is empty. Returns the summary. After Ctrl-C, checks the poses of half a second only. Throws
+/// std::runtime_error when a visible pose collides, or when the recording is not whole.
+SessionSummary conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
+                        bool verbose, const std::string& report_folder);
 
 }  // namespace glissade::apps

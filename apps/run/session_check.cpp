@@ -6,40 +6,56 @@
 
 namespace glissade::apps {
 
-SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& scene)
-    : samples_(samples), obstacles_(scene.placed_obstacles) {
+SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& scene, const HandModels& hands,
+                           std::optional<std::chrono::milliseconds> patience)
+    : samples_(samples),
+      obstacles_(scene.placed_obstacles),
+      colliding_of_parts_(samples.parts(), 0),
+      colliding_of_hands_(samples.hands(), 0) {
   for (const ScenePart& part : scene.parts)
     meshes_.emplace_back(part.part_V, &part.part_V->tree.mesh());
   for (const haptics::ScriptedPart& part : scene.moving)
     meshes_.emplace_back(part.part_B, &part.part_B->tree.mesh());
   for (const auto& mesh : meshes_)
     parts_.emplace_back(std::vector<reference::PlacedMesh>{{mesh}});
+  const auto end = std::chrono::steady_clock::now() + patience.value_or(std::chrono::milliseconds(0));
+  const std::size_t strides = patience ? 64 : 1;
+  for (std::size_t first = 0; first < std::min(strides, samples.size()); ++first) {
+    if (first > 0 && std::chrono::steady_clock::now() >= end) return;
+    Mask chosen(samples.size(), 0);
+    for (std::size_t i = first; i < samples.size(); i += strides)
+      chosen[i] = 1;
+    for (std::size_t p = 0; p < samples.parts(); ++p)
+      check_part(p, chosen);
+    for (std::size_t h = 0; h < samples.hands(); ++h)
+      if (hands[h]) check_hand(h, *hands[h], chosen);
+    checked_ticks_ += std::count(chosen.begin(), chosen.end(), 1);
+  }
 }
 
-std::int64_t SessionCheck::colliding_ticks_of_part(std::size_t part) const {
-  std::vector<char> collides(samples_.size(), 0);
-  const std::vector<char> all(samples_.size(), 1);
+void SessionCheck::check_part(std::size_t part, const Mask& chosen) {
+  Mask collides(samples_.size(), 0);
   check(
-      obstacles_, *meshes_[part], all, [&](std::size_t i) { return samples_.part(i, part).X_WV; }, collides);
+      obstacles_, *meshes_[part], chosen, [&](std::size_t i) { return samples_.part(i, part).X_WV; }, collides);
   for (std::size_t other = 0; other < part; ++other) {
     const auto X_OV = [&](std::size_t i) -> Eigen::Isometry3d {
       return samples_.part(i, other).X_WV.inverse(Eigen::Isometry) * samples_.part(i, part).X_WV;
     };
-    check(parts_[other], *meshes_[part], all, X_OV, collides);
+    check(parts_[other], *meshes_[part], chosen, X_OV, collides);
   }
-  return std::count(collides.begin(), collides.end(), 1);
+  colliding_of_parts_[part] += std::count(collides.begin(), collides.end(), 1);
 }
 
-std::int64_t SessionCheck::colliding_ticks_of_hand(std::size_t hand, const grasping::HandModel& model) const {
-  std::vector<char> counts(samples_.size(), 0);
+void SessionCheck::check_hand(std::size_t hand, const grasping::HandModel& model, const Mask& chosen) {
+  Mask counts = chosen;
   const std::size_t links = model.chain.links().size();
   std::vector<Eigen::Isometry3d> X_WL(samples_.size() * links);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     const devices::VisibleHand& visible = samples_.hand(i, hand).visible;
-    counts[i] = devices::is_present(visible.activity) ? 1 : 0;
+    if (!devices::is_present(visible.activity)) counts[i] = 0;
     if (counts[i] != 0) model.chain.poses(visible.X_WH, visible.angles, std::span(X_WL).subspan(i * links, links));
   }
-  std::vector<char> collides(samples_.size(), 0);
+  Mask collides(samples_.size(), 0);
   for (std::size_t l = 0; l < links; ++l) {
     const geometry::TriangleMesh* const mesh = model.chain.links()[l].mesh.get();
     if (mesh == nullptr) continue;
@@ -52,13 +68,13 @@ std::int64_t SessionCheck::colliding_ticks_of_hand(std::size_t hand, const grasp
       check(parts_[p], *mesh, counts, X_VL, collides);
     }
   }
-  return std::count(collides.begin(), collides.end(), 1);
+  colliding_of_hands_[hand] += std::count(collides.begin(), collides.end(), 1);
 }
 
 /// Marks the ticks that count and in which the mesh collides.
 template <typename PoseAt>
-void SessionCheck::check(const reference::GridCheck& obstacles, const geometry::TriangleMesh& mesh,
-                         const std::vector<char>& counts, const PoseAt& pose_at, std::vector<char>& collides) const {
+void SessionCheck::check(const reference::GridCheck& obstacles, const geometry::TriangleMesh& mesh, const Mask& counts,
+                         const PoseAt& pose_at, Mask& collides) const {
   std::vector<Eigen::Isometry3d> poses;
   std::vector<std::size_t> pose_of_tick(samples_.size());
   for (std::size_t i = 0; i < samples_.size(); ++i) {

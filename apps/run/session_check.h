@@ -2,9 +2,11 @@
 
 /// The check of a run afterwards, independent of the DOP-trees: does any pose that was shown collide?
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include <glissade/apps/run/session_recorder.h>
@@ -14,27 +16,41 @@
 
 namespace glissade::apps {
 
+using HandModels = std::vector<std::shared_ptr<const grasping::HandModel>>;
+
 /// Checks the visible poses of parts and hands in the kept ticks by brute force, with progress bars. A body at rest
-/// repeats its pose, which is checked once. All arguments must outlive the object.
+/// repeats its pose, which is checked once.
 class SessionCheck {
  public:
-  SessionCheck(const SessionRecorder& samples, const HapticScene& scene);
+  /// `hands` are the models of the hands, null for one without fingers in the simulation. With a `patience`, the check
+  /// ends after about so long; what it has checked by then is spread over the whole run.
+  SessionCheck(const SessionRecorder& samples, const HapticScene& scene, const HandModels& hands,
+               std::optional<std::chrono::milliseconds> patience = {});
 
-  /// The number of ticks in which the part collides with an obstacle or with a part of lower number.
-  std::int64_t colliding_ticks_of_part(std::size_t part) const;
-  /// The number of ticks in which a segment of the hand, made like `model`, collides with an obstacle or a part. Hands
-  /// that wait, or are lost and hold nothing, are in nobody's way, and count as free.
-  std::int64_t colliding_ticks_of_hand(std::size_t hand, const grasping::HandModel& model) const;
+  /// The number of ticks that were checked: all, unless patience ended.
+  std::int64_t checked_ticks() const { return checked_ticks_; }
+  /// Of these, the ticks in which the part collides with an obstacle or with a part of lower number.
+  std::int64_t colliding_ticks_of_part(std::size_t part) const { return colliding_of_parts_[part]; }
+  /// Of these, the ticks in which a segment of the hand collides with an obstacle or a part. Hands that wait, or are
+  /// lost and hold nothing, are in nobody's way, and count as free.
+  std::int64_t colliding_ticks_of_hand(std::size_t hand) const { return colliding_of_hands_[hand]; }
 
  private:
+  using Mask = std::vector<char>;  // of ticks
+
+  void check_part(std::size_t part, const Mask& chosen);
+  void check_hand(std::size_t hand, const grasping::HandModel& model, const Mask& chosen);
   template <typename PoseAt>
-  void check(const reference::GridCheck& obstacles, const geometry::TriangleMesh& mesh, const std::vector<char>& counts,
-             const PoseAt& pose_at, std::vector<char>& collides) const;
+  void check(const reference::GridCheck& obstacles, const geometry::TriangleMesh& mesh, const Mask& counts,
+             const PoseAt& pose_at, Mask& collides) const;
 
   const SessionRecorder& samples_;
   reference::GridCheck obstacles_;
   std::vector<std::shared_ptr<const geometry::TriangleMesh>> meshes_;  // of the parts
   std::vector<reference::GridCheck> parts_;                            // each at its own origin
+  std::int64_t checked_ticks_ = 0;
+  std::vector<std::int64_t> colliding_of_parts_;
+  std::vector<std::int64_t> colliding_of_hands_;
 };
 
 }  // namespace glissade::apps

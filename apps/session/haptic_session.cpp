@@ -177,7 +177,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   check_spin(settings.spin, period);
   if (period > fastest)
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
-  const std::int64_t ticks = std::llround(settings.seconds / std::chrono::duration<double>(period).count());
+  const double most_s = settings.seconds + settings.longer_s;
+  const std::int64_t ticks = std::llround(most_s / std::chrono::duration<double>(period).count());
   StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
   watch({.sentences = softer_devices(grips, period)});
   const haptics::MultiPartSliding& sliding = started.simulation->parts();

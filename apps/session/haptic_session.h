@@ -42,6 +42,8 @@ struct RunSettings {
   std::vector<SessionHand> hands{SessionHand{}};
   SlidingChoice choice{};
   double seconds = 0.0;  ///< after the first state of any glove; 0: no limit
+  /// With a limit: the run may take so much longer, until it is told to stop.
+  double longer_s = 0.0;
   /// Of the haptic loop; default: that of the fastest glove, within the bounds of `validate_tick_period`.
   std::optional<std::chrono::nanoseconds> period{};
   std::chrono::nanoseconds spin{0};  ///< as `haptics::HapticServerOptions::spin`

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <stdexcept>
@@ -13,6 +14,7 @@
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/run/session.h>
+#include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/part_curves.h>
@@ -115,7 +117,7 @@ std::string name_of_hand(const Session& session, std::size_t hand) {
 void add_part_rows(const PartSummary& part, const SessionSummary& summary, Rows& rows) {
   rows.emplace_back("part " + part.name,
                     formatted("%lld of %lld poses collide, by brute force",
-                              static_cast<long long>(part.colliding_poses), static_cast<long long>(summary.samples)));
+                              static_cast<long long>(part.colliding_poses), static_cast<long long>(summary.checked)));
   rows.emplace_back("  time in contact",
                     formatted("%.1f %%, up to %d contacts", 100.0 * part.contact_fraction, part.contacts_max));
   rows.emplace_back("  states", states_text(part, summary.samples));
@@ -131,7 +133,7 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, const Sessi
   if (!hand.has_fingers) return;
   rows.emplace_back("  fingers", formatted("greatest torque %.2f Nm; %lld of %lld postures collide, by brute force",
                                            hand.joint_torque_max_Nm, static_cast<long long>(hand.colliding_postures),
-                                           static_cast<long long>(summary.samples)));
+                                           static_cast<long long>(summary.checked)));
 }
 
 Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
@@ -275,7 +277,7 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"colliding_poses", summary.colliding_poses()},
                          {"parts", parts},
                          {"hands", hands},
-                         {"checked_poses", summary.samples},
+                         {"checked_poses", summary.checked},
                          {"goal_reached", nullptr},
                          {"goal_distance_m", nullptr},
                          {"tick_us_p50", nullptr},
@@ -367,9 +369,15 @@ std::string real_time_warning(const Session& session) {
   return "";
 }
 
-void conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json, bool verbose,
-              const std::string& report_folder) {
-  const SessionSummary summary = summarize(session, scene);
+SessionSummary conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
+                        bool verbose, const std::string& report_folder) {
+  constexpr std::chrono::milliseconds kAfterInterrupt{500};
+  const bool is_interrupted = StopSignal::requested();
+  const SessionSummary summary =
+      summarize(session, scene, is_interrupted ? std::optional(kAfterInterrupt) : std::nullopt);
+  if (summary.checked < summary.samples)
+    say("glissade: the run was interrupted: the poses of " + std::to_string(summary.checked) + " of " +
+        std::to_string(summary.samples) + " ticks were checked for collisions");
   if (as_json) {
     std::cout << to_json(summary, session).dump(2) << '\n';
   } else {
@@ -387,6 +395,7 @@ void conclude(const Session& session, const HapticScene& scene, const std::strin
     throw std::runtime_error(std::to_string(summary.colliding_poses()) + " visible poses collide");
   }
   if (!session.is_recording_whole) throw std::runtime_error(session.recording + ": the recording is not whole");
+  return summary;
 }
 
 }  // namespace glissade::apps

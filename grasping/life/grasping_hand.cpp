@@ -11,6 +11,7 @@
 
 #include "clasp/chain_step.h"
 #include "hand/hand_links.h"
+#include "life/push.h"
 
 namespace glissade::grasping {
 namespace {
@@ -74,6 +75,7 @@ void GraspingHand::aim(const std::optional<Posture>& target, double milliseconds
 void GraspingHand::vanish() {
   GLISSADE_ASSERT(!part_);
   clasp_.lose_track();
+  is_late_ = true;
   analysis_.clear();
   now_.clear();
 }
@@ -113,6 +115,9 @@ void GraspingHand::advance() {
   posture_ = *target_;
   if (part_) posture_.X_WR = clasp_.posture().X_WR;
   clasp_.advance(posture_);
+  if (!is_late_ || !is_present()) return;
+  is_late_ = std::any_of(clasp_.contacts().begin(), clasp_.contacts().end(),
+                         [](const LinkContact& touch) { return touch.depth > Push::kPress_m; });
 }
 
 std::span<const LinkContact> GraspingHand::contacts() const {

@@ -44,6 +44,8 @@ class GraspingHand {
   bool is_present() const { return clasp_.state() == ClaspState::kClasping; }
   /// A hand that is lost and holds nothing is nowhere, and grasps nothing.
   void vanish();
+  /// Whether the hand has been found again and still presses on something: what has been missed is no push.
+  bool is_late() const { return is_late_; }
 
   /// Takes hold of the part at X_WV; only a hand that is present can.
   void take(std::size_t part, const Eigen::Isometry3d& X_WV);
@@ -78,6 +80,7 @@ class GraspingHand {
   SteadyFingers fingers_;
   HeldContacts held_;
   std::optional<Posture> target_;
+  bool is_late_ = false;
   std::optional<std::size_t> part_;
   std::optional<std::size_t> left_;  // the part that the hand held last
   double since_left_ms_ = 0.0;

@@ -1,11 +1,40 @@
 #include "loop/answer.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace glissade::haptics {
 
 namespace {
+
 constexpr double kLongestCatchUp_ms = 250.0;
+// A call that comes later than this goes in steps of this, or in the largest number of them.
+constexpr double kStep_ms = 5.0;
+constexpr double kMostSteps = 10.0;
+
+Eigen::Isometry3d between(const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to, double share) {
+  const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  return geometry::displaced(X_from, origin, geometry::displacement_between(X_from, X_to, origin).scaled(share));
+}
+
+/// `to`, with what has moved since `from` on its straight way between both.
+Ghosts between(const Ghosts& from, const Ghosts& to, double share) {
+  Ghosts ghosts = to;
+  ghosts.time =
+      from.time + std::chrono::nanoseconds(std::llround(share * static_cast<double>((to.time - from.time).count())));
+  for (std::size_t p = 0; p < ghosts.parts.size(); ++p) {
+    if (to.parts[p].is_held && from.parts[p].hold == to.parts[p].hold)
+      ghosts.parts[p].X_WG = between(from.parts[p].X_WG, to.parts[p].X_WG, share);
+  }
+  for (std::size_t h = 0; h < ghosts.hands.size(); ++h) {
+    if (!from.hands[h].is_tracked || !to.hands[h].is_tracked) continue;
+    ghosts.hands[h].X_WH = between(from.hands[h].X_WH, to.hands[h].X_WH, share);
+    for (std::size_t j = 0; j < ghosts.hands[h].angles.size(); ++j)
+      ghosts.hands[h].angles[j] = std::lerp(from.hands[h].angles[j], to.hands[h].angles[j], share);
+  }
+  return ghosts;
+}
+
 }  // namespace
 
 Answerer::Answerer(LoopSimulation& simulation)
@@ -38,12 +67,15 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
     holds_[p] = ghost.hold;
   }
   // An answer that takes long must not slow the parts down: the slew is a speed.
-  const std::chrono::nanoseconds passed = answered_ ? ghosts.time - *answered_ : first;
-  answered_ = ghosts.time;
-  const double milliseconds = std::chrono::duration<double, std::milli>(passed).count();
-  simulation_.advance(ghosts, std::clamp(milliseconds, 0.0, kLongestCatchUp_ms));
+  const std::chrono::nanoseconds passed = answered_ ? ghosts.time - answered_->time : first;
+  const double milliseconds =
+      std::clamp(std::chrono::duration<double, std::milli>(passed).count(), 0.0, kLongestCatchUp_ms);
+  const double steps = answered_ ? std::clamp(std::floor(milliseconds / kStep_ms), 1.0, kMostSteps) : 1.0;
+  for (double step = 1.0; step < steps; ++step)
+    advance(between(*answered_, ghosts, step / steps), milliseconds / steps);
+  advance(ghosts, milliseconds / steps);
+  answered_ = ghosts;
   ++sequence_;
-  times_[static_cast<std::size_t>(sequence_) % times_.size()] = ghosts.time;
   renew_contact_set(sliding_, sequence_, time_of_answered(), scratch_, set);
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
@@ -51,9 +83,15 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   simulation_.tell_hands(set);
 }
 
+void Answerer::advance(const Ghosts& ghosts, double milliseconds) {
+  simulation_.advance(ghosts, milliseconds);
+  ++calls_;
+  times_[static_cast<std::size_t>(calls_) % times_.size()] = ghosts.time;
+}
+
 std::chrono::nanoseconds Answerer::time_of_answered() const {
-  const std::int64_t oldest = std::max<std::int64_t>(1, sequence_ - std::ssize(times_) + 1);
-  const std::int64_t answered = std::clamp(sliding_.answered_call() - calls_before_, oldest, sequence_);
+  const std::int64_t oldest = std::max<std::int64_t>(1, calls_ - std::ssize(times_) + 1);
+  const std::int64_t answered = std::clamp(sliding_.answered_call() - calls_before_, oldest, calls_);
   return times_[static_cast<std::size_t>(answered) % times_.size()];
 }
 

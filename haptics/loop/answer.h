@@ -27,9 +27,10 @@ class Answerer {
   ContactSet at_start() const;
 
   /// Grasps and releases of `ghosts` happen first, then all parts move for the time since the last call, which is
-  /// `first` at the first one. The numbers of the sets are 1, 2, 3, … The time of a set is that of the ghosts which its
-  /// poses answer: older ones where the work of a call did not suffice for the newest. The answer takes the place of
-  /// `set`, which must be new or an older one of this object.
+  /// `first` at the first one. Where this call is late, parts and hands go through the motion since the last call in
+  /// steps: a hand that closes while it arrives would otherwise arrive as a fist. The numbers of the sets are 1, 2, 3,
+  /// … The time of a set is that of the ghosts which its poses answer: older ones where the work of a call did not
+  /// suffice for the newest. The answer takes the place of `set`, which must be new or an older one of this object.
   void answer(const Ghosts& ghosts, std::chrono::nanoseconds first, ContactSet& set);
 
  private:
@@ -37,12 +38,14 @@ class Answerer {
   const MultiPartSliding& sliding_;
   std::int64_t calls_before_;                    // of `MultiPartSliding::advance`, by others
   std::array<std::int64_t, kMaxParts> holds_{};  // those that the simulation knows
-  std::optional<std::chrono::nanoseconds> answered_;
+  std::optional<Ghosts> answered_;
+  void advance(const Ghosts& ghosts, double milliseconds);
   std::chrono::nanoseconds time_of_answered() const;
 
-  /// The times of the ghosts of the last calls, by their numbers: more than a set may be old before its force has
-  /// faded.
+  /// The times of the ghosts of the last calls of the simulation, by their numbers: more than a set may be old before
+  /// its force has faded.
   std::array<std::chrono::nanoseconds, 1024> times_{};
+  std::int64_t calls_ = 0;
   std::int64_t sequence_ = 0;
   std::vector<UrgentContact> scratch_;
   PatchMaker patches_;

@@ -181,7 +181,7 @@ TEST_F(Cli, AFullDiskIsAFailureWhileRunning) {
 
 TEST_F(Cli, AFullDiskBehindStandardOutputIsAFailureToo) {
   const std::vector<std::vector<std::string>> calls{
-      {"info", mesh}, {"info", mesh, "--json"}, {"demo", "--offline", "--seconds", "0.01"}, {"--help"}};
+      {"info", mesh}, {"info", mesh, "--json"}, {"demo", "--offline", "--seconds", "1"}, {"--help"}};
   for (std::vector<std::string> arguments : calls) {
     SCOPED_TRACE(arguments.front());
     arguments.insert(arguments.begin(), {"/bin/sh", "-c", "exec \"$0\" \"$@\" > /dev/full", GLISSADE_PROGRAM});

@@ -81,7 +81,7 @@ TEST_F(HostileInput, NoAnswerIsLostWithSuccess) {
                                                        {"collide", mesh, mesh, "--poses", poses},
                                                        slide(),
                                                        slide({"--summary", "-"}),
-                                                       {"demo", "--offline", "--seconds", "0.01"},
+                                                       {"demo", "--offline", "--seconds", "1"},
                                                        {"doctor"}};
   for (const std::vector<std::string>& arguments : commands) {
     for (const char* output : {"> /dev/full", ">&-", "<&- >&-"}) {

@@ -14,6 +14,8 @@
 
 #include "eventually.h"
 #include "lcm/glove_messages.h"
+#include "lcm/haptic_state_message.h"
+#include "lcm/wearers_view.h"
 
 namespace glissade::devices {
 namespace {
@@ -70,15 +72,37 @@ TEST_F(SimulatedGloveServiceTest, WaitsForTheFirstCommandAndThenRunsByTime) {
 
   const CommandHeader header{.device = kDefaultDevice, .glove_session = session_of_glove(), .session = 1};
   bus->publish(kGloveCommandChannel, encode(header, GloveCommand{}));
+  // No second one comes. Soon the wearer gives up waiting for it.
   ASSERT_TRUE(eventually([&] { return service.script_time() >= milliseconds(200); }));
-  const nanoseconds script = service.script_time();
-  EXPECT_EQ(script % milliseconds(1), nanoseconds(0)) << "deadlines, not their delays, move the script";
+  EXPECT_GE(service.waited(), milliseconds(500));
+  const nanoseconds before = service.script_time();
+  ASSERT_TRUE(eventually([&] { return service.script_time() >= before + milliseconds(200); }));
+  EXPECT_EQ((service.script_time() - before) % milliseconds(1), nanoseconds(0))
+      << "deadlines, not their delays, move the script";
   service.stop();
 
   // The glove's clock runs from the first state on, also while the script waits.
   const std::vector<nanoseconds> times = state_times();
   for (std::size_t i = 2; i < times.size(); ++i)
     EXPECT_EQ(times[i] - times[i - 2], milliseconds(5)) << "at " << times[i].count() << " ns";
+}
+
+// What a wearer sees is as old as the contacts, and since then it has become older.
+TEST_F(SimulatedGloveServiceTest, TheWearerSeesHowOldThePictureIs) {
+  WearersView view(bus);
+  EXPECT_EQ(view.age(), std::nullopt);
+  bus->publish(kHapticStateChannel, encode(HapticState{.contact_set_age = milliseconds(300)}));
+  ASSERT_TRUE(eventually([&] { return view.age().has_value(); }));
+  EXPECT_GE(view.age(), milliseconds(300));
+}
+
+TEST(PaceOfTheWearer, FallsWithTheAgeOfAnswersUntilPatienceEnds) {
+  EXPECT_EQ(pace_for(nanoseconds(0)), 1.0);
+  EXPECT_EQ(pace_for(milliseconds(20)), 1.0);
+  EXPECT_NEAR(pace_for(milliseconds(60)), 0.5, 1e-12);
+  EXPECT_EQ(pace_for(milliseconds(100)), 0.0);
+  EXPECT_EQ(pace_for(milliseconds(1000)), 0.0);
+  EXPECT_EQ(pace_for(milliseconds(1001)), 1.0);
 }
 
 }  // namespace

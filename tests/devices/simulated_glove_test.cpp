@@ -54,6 +54,23 @@ TEST(SimulatedGlove, InFreeSpaceLagsByTheArmsFrictionOnly) {
   EXPECT_NEAR(glove.state().v_WH.x(), kSpeed, 1e-6);
 }
 
+TEST(SimulatedGlove, StopsWhereTheWearerWaitsAndGoesOnFromThere) {
+  constexpr double kSpeed = 0.2;
+  SimulatedGlove glove(line({0, 0, 0}, {2 * kSpeed, 0, 0}, seconds(2)));
+  for (int i = 0; i < 500; ++i)
+    glove.step(kTick, {});
+  for (int i = 0; i < 500; ++i)
+    glove.step(kTick, {}, 0.0);
+  EXPECT_EQ(glove.script_time(), milliseconds(500));
+  EXPECT_EQ(glove.state().time, seconds(1)) << "its clock goes on";
+  EXPECT_NEAR(glove.state().X_WH.translation().x(), 0.5 * kSpeed, 1e-4);
+  EXPECT_NEAR(glove.state().v_WH.x(), 0.0, 1e-4);
+  for (int i = 0; i < 500; ++i)
+    glove.step(kTick, {}, 0.5);
+  EXPECT_EQ(glove.script_time(), milliseconds(750));
+  EXPECT_NEAR(glove.state().v_WH.x(), 0.5 * kSpeed, 1e-4);
+}
+
 TEST(SimulatedGlove, TurnsWithTheScript) {
   const Isometry3d X_end(AngleAxisd(1.2, Vector3d(1, 2, -1).normalized()));
   SimulatedGlove glove(geometry::PoseTrajectory({{seconds(0), Isometry3d::Identity()}, {seconds(1), X_end}}));

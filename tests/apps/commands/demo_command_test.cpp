@@ -65,7 +65,7 @@ TEST_F(Demo, OfflineGivesTheSameHashTwiceAndReachesTheSeatThroughContact) {
 }
 
 TEST_F(Demo, ThePageNamesTheRules) {
-  run({"--scene", scene, "--offline", "--seconds", "0.02", "--metaphor", "incremental", "--friction", "0.2", "--report",
+  run({"--scene", scene, "--offline", "--seconds", "1", "--metaphor", "incremental", "--friction", "0.2", "--report",
        files().path("rules")});
   const std::string page = read_text_file(files().path("rules/index.html"));
   EXPECT_NE(page.find("<td>incremental</td>"), std::string::npos);
@@ -74,7 +74,7 @@ TEST_F(Demo, ThePageNamesTheRules) {
 
 TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
   const nlohmann::json summary = run({"--scene", scene, "--seconds", "1.2", "--report", files().path("report")});
-  EXPECT_EQ(summary["ticks"], 1200);
+  EXPECT_GE(summary["ticks"], 1200) << "until the end of the script";
   EXPECT_EQ(summary["colliding_poses"], 0);
   EXPECT_EQ(summary["goal_reached"], true);
   EXPECT_GT(summary["hands"][0]["force_max_N"], 1.0);
@@ -146,6 +146,10 @@ TEST_F(Demo, FingersGraspTheMotorSeatItAndLetGo) {
   EXPECT_LT(summary["parts"][0]["state_changes"], 40) << "a hand that holds does not let go now and then";
 }
 
+TEST_F(Demo, ThatMissesItsGoalFailsAndSaysWhy) {
+  test_support::expect_fails(1, {"demo", "--offline", "--seconds", "0.05", "--scene", scene}, {"missed its goal by"});
+}
+
 TEST_F(Demo, FingersAreThoseOfTheBuiltInScene) {
   expect_refused({"demo", "--fingers", "--scene", scene}, {"--fingers", "--scene"});
 }
@@ -155,7 +159,6 @@ TEST_F(Demo, FrictionHoldsTheHandBack) {
     std::vector<std::string> arguments{"demo", "--offline", "--scene", scene, "--seconds", "1", "--json"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const test_support::ProgramResult result = test_support::glissade(arguments);
-    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
     return nlohmann::json::parse(result.standard_output)["goal_distance_m"].get<double>();
   };
   EXPECT_GT(distance_with({"--friction", "0.6"}), distance_with({}) + 2e-3);

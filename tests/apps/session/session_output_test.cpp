@@ -1,13 +1,19 @@
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <sstream>
 #include <string>
+#include <tuple>
+#include <utility>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <glissade/apps/run/missed_goal.h>
 #include <glissade/apps/run/session.h>
+#include <glissade/apps/run/session_check.h>
+#include <glissade/geometry/mesh_generators.h>
 
 #include "temporary_folder.h"
 
@@ -32,7 +38,11 @@ Session session_of(std::int64_t ticks) {
 }
 
 SessionSummary summary_of(const Session& session) {
-  return {.ticks = session.ticks, .samples = session.ticks, .parts = {{.name = "motor"}}, .hands = {{.device = 1}}};
+  return {.ticks = session.ticks,
+          .samples = session.ticks,
+          .checked = session.ticks,
+          .parts = {{.name = "motor"}},
+          .hands = {{.device = 1}}};
 }
 
 TEST(SessionRecorder, KeepsTheNewestTicksAndTheContactsOfEverySixteenth) {
@@ -98,6 +108,58 @@ TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
   summary.goal_reached = true;
   summary.goal_distance_m = 1e-4;
   EXPECT_THAT(to_text(summary, session, false), StartsWith("  goal reached                 yes, 0.100 mm from it\n"));
+}
+
+/// What the hand does in each of 100 ticks, and the part that it holds.
+Session session_of_hand(const std::function<std::pair<devices::HandActivity, int>(int tick)>& at) {
+  Session session = session_of(0);
+  const auto samples = std::make_shared<SessionRecorder>(100, 1, 1);
+  for (int i = 0; i < 100; ++i) {
+    devices::HapticState state{.sequence = i + 1, .time = std::chrono::milliseconds(i)};
+    std::tie(state.hands[0].visible.activity, state.hands[0].part) = at(i);
+    state.contact_set_age = std::chrono::milliseconds(i < 60 ? 20 : 21);
+    state.parts[0].X_WV.translation().x() = 1e-3 * i;
+    samples->record(state);
+  }
+  session.samples = samples;
+  return session;
+}
+
+TEST(MissedGoal, IsExplainedByWhatTheHandDid) {
+  using devices::HandActivity;
+  HapticScene scene;
+  scene.X_WGoal = Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0));
+  const auto why = [&](const Session& session) {
+    SessionSummary summary = summary_of(session);
+    summary.goal_distance_m = 0.9;
+    return why_goal_is_missed(summary, session, scene);
+  };
+  // It waits before it is anywhere, which is no reason.
+  EXPECT_EQ(
+      why(session_of_hand([](int i) {
+        return std::pair(i < 10 ? HandActivity::kWaiting : i < 80 ? HandActivity::kFree : HandActivity::kLost, -1);
+      })),
+      "'motor' missed its goal by 900.0 mm: no hand ever held it; the hand was lost for 0.02 s because its states "
+      "came late; contacts were older than 20 ms for 0.04 s");
+  const std::string let_go = why(session_of_hand(
+      [](int i) { return std::pair(i > 50 ? HandActivity::kFree : HandActivity::kHolding, i > 50 ? -1 : 0); }));
+  EXPECT_THAT(let_go, HasSubstr("it was let go at 0.05 s, 950.0 mm from the goal"));
+  const std::string held = why(session_of_hand([](int) { return std::pair(HandActivity::kHolding, 0); }));
+  EXPECT_THAT(held, HasSubstr("at the end it was unknown, 99.0 mm from where the hand wanted it"));
+}
+
+TEST(SessionCheck, WithoutPatienceLooksAtTicksOfTheWholeRun) {
+  const auto box = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.01, 0.01, 0.01}, 12));
+  HapticScene scene;
+  scene.placed_obstacles = {{box, Eigen::Isometry3d(Eigen::Translation3d(0.09, 0.0, 0.0))}};
+  scene.parts = {{.name = "box", .part_V = std::make_shared<const haptics::SlidingPart>(box)}};
+  const Session session = session_of_hand([](int) { return std::pair(devices::HandActivity::kNone, -1); });
+  const SessionCheck whole(*session.samples, scene, {nullptr});
+  EXPECT_EQ(whole.checked_ticks(), 100);
+  EXPECT_EQ(whole.colliding_ticks_of_part(0), 20) << "from 80 mm on";
+  const SessionCheck hasty(*session.samples, scene, {nullptr}, std::chrono::milliseconds(0));
+  EXPECT_EQ(hasty.checked_ticks(), 2) << "ticks 0 and 64";
+  EXPECT_EQ(hasty.colliding_ticks_of_part(0), 0);
 }
 
 TEST(SessionText, ARunWithoutASearchHasNoMeans) {
