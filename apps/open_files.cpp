@@ -1,6 +1,10 @@
 #include <cstdint>
 #include <set>
+#include <stdexcept>
+#include <string>
 #include <utility>
+
+#include <CLI/CLI.hpp>
 
 #include <glissade/apps/files/input_files.h>
 #include <glissade/apps/open_files.h>
@@ -19,17 +23,43 @@ void say_what_is_left_out(const std::string& mesh, std::int64_t triangles) {
       " left out");
 }
 
+/// Set by `--strict`, for all that the program opens.
+bool& is_strict() {
+  static bool strict = false;
+  return strict;
+}
+
+/// Each warning is said once, however often its file is opened.
+void warn_or_refuse(const std::string& warning) {
+  if (is_strict()) throw std::invalid_argument(warning + " With --strict this is an error.");
+  static std::set<std::string> said;
+  if (said.insert(warning).second) warn(warning);
+}
+
 }  // namespace
 
-std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path, double scale) {
+void add_strict_option(CLI::App& command) {
+  command.add_flag("--strict", is_strict(), "Take warnings about the content of mesh files as errors");
+}
+
+geometry::ImportedMesh import_with_warnings(const std::string& path, double scale) {
   note_input(path);
   geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
+  for (const std::string& sentence : imported.warnings)
+    warn_or_refuse(path + ": " + sentence);
+  return imported;
+}
+
+std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path, double scale) {
+  geometry::ImportedMesh imported = import_with_warnings(path, scale);
   say_what_is_left_out(path, imported.degenerate_triangles);
   return std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh));
 }
 
 Scene open_scene(const std::string& path) {
   Scene scene = read_scene(path);
+  for (const std::string& warning : scene.mesh_warnings)
+    warn_or_refuse(warning);
   std::set<const geometry::TriangleMesh*> said;
   for (const SceneObject& object : scene.objects) {
     if (!said.insert(object.mesh.get()).second) continue;

@@ -1,8 +1,10 @@
+#include <iostream>
 #include <string>
 
 #include <poll.h>
 
 #include <glissade/apps/say.h>
+#include <glissade/apps/text.h>
 
 namespace glissade::apps {
 
@@ -12,6 +14,10 @@ void say(std::string_view line, int descriptor) {
   const std::string text = std::string(line) + '\n';
   // A pipe that is ready takes a short line as a whole. What cannot be written has no other place to go.
   [[maybe_unused]] const ssize_t written = write(descriptor, text.data(), text.size());
+}
+
+void warn(const std::string& sentence) {
+  std::cerr << "glissade: warning: " << one_line(sentence) << '\n';
 }
 
 }  // namespace glissade::apps

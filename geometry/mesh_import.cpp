@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -33,6 +34,15 @@ const Format& format_of(const std::filesystem::path& path) {
     if (extension == format.extension) return format;
   }
   reject(path, "The format '" + extension + "' is not known; known are .obj, .stl, .ply, .gltf and .glb");
+}
+
+void check_used_vertices(const std::filesystem::path& path, const TriangleMesh& mesh) {
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const std::int32_t corner : triangle) {
+      const std::optional<double> bad = bad_coordinate(mesh.vertices[static_cast<std::size_t>(corner)]);
+      if (bad) reject_coordinate(path, "After scaling", *bad);
+    }
+  }
 }
 
 std::int64_t drop_degenerate(TriangleMesh& mesh) {
@@ -72,11 +82,10 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   TriangleSoup soup = format_of(path).read(file);
   for (Eigen::Vector3d& vertex : soup.mesh.vertices) {
     vertex *= scale;
-    for (const double coordinate : vertex) {
-      if (!is_coordinate(coordinate)) reject_coordinate(path, "After scaling", coordinate);
-    }
   }
+  check_used_vertices(path, soup.mesh);
   ImportedMesh result;
+  result.warnings = std::move(soup.warnings);
   result.polygons_triangulated = soup.polygons_triangulated;
   result.mesh = weld(soup.mesh);
   result.degenerate_triangles = drop_degenerate(result.mesh);

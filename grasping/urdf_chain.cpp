@@ -26,12 +26,12 @@ class ChainMaker {
  public:
   ChainMaker(const urdf::ModelInterface& model, std::filesystem::path file) : model_(model), file_(std::move(file)) {}
 
-  KinematicChain make() {
+  UrdfChain make() {
     const urdf::Link& root = *model_.getRoot();
-    links_.push_back({.name = root.name, .mesh = collision_mesh(root, file_)});
+    links_.push_back({.name = root.name, .mesh = collision_mesh(root, file_, warnings_)});
     add_children(root, 0);
     add_terms();
-    return {std::move(values_), std::move(links_)};
+    return {KinematicChain(std::move(values_), std::move(links_)), std::move(warnings_)};
   }
 
  private:
@@ -46,7 +46,8 @@ class ChainMaker {
       check_type(joint);
       const Eigen::Isometry3d X_PJ = to_pose(joint.parent_to_joint_origin_transform);
       require(X_PJ.matrix().allFinite(), joint, "has an origin that is not finite");
-      links_.push_back({.name = child.name, .parent = number, .X_PJ = X_PJ, .mesh = collision_mesh(child, file_)});
+      links_.push_back(
+          {.name = child.name, .parent = number, .X_PJ = X_PJ, .mesh = collision_mesh(child, file_, warnings_)});
       joints_.push_back(&joint);
       if (turns(joint)) {
         links_.back().axis_J = axis_of(joint);
@@ -120,11 +121,12 @@ class ChainMaker {
   std::vector<const urdf::Joint*> joints_;  ///< of all links but the root
   std::vector<FlexValue> values_;
   std::map<std::string, std::size_t> numbers_;  ///< of flex values
+  std::vector<std::string> warnings_;           ///< of mesh files
 };
 
 }  // namespace
 
-KinematicChain read_urdf(const std::filesystem::path& path) {
+UrdfChain read_urdf(const std::filesystem::path& path) {
   const urdf::ModelInterfaceSharedPtr model = read_urdf_document(path);
   try {
     return ChainMaker(*model, path).make();

@@ -3,10 +3,19 @@
 /// Kinematic chains from URDF files, the format of robot descriptions of ROS.
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include <glissade/grasping/kinematic_chain.h>
 
 namespace glissade::grasping {
+
+/// A chain, and what was skipped or found missing in its mesh files: each sentence of `ImportedMesh::warnings` once,
+/// after the name of the file.
+struct UrdfChain {
+  KinematicChain chain;
+  std::vector<std::string> warnings;
+};
 
 /// Reads a robot as a chain. Its root is the root link of the file; each link comes before those that hang on it.
 ///
@@ -25,6 +34,6 @@ namespace glissade::grasping {
 /// for prismatic, floating and planar joints; for links that do not form one tree; for limits, axes, sizes and scales
 /// that are no proper numbers; for mimics of joints that are missing, fixed or mimic in a circle; for mesh files that
 /// cannot be found or imported. May block on the disk.
-KinematicChain read_urdf(const std::filesystem::path& path);
+UrdfChain read_urdf(const std::filesystem::path& path);
 
 }  // namespace glissade::grasping

@@ -20,6 +20,7 @@
 #include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
 
@@ -159,6 +160,7 @@ void add_collide_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();
   command->add_flag("--cache", options->cache, kCacheHelp);
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

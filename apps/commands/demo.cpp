@@ -14,6 +14,7 @@
 #include <glissade/apps/durations.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/missed_goal.h>
@@ -182,6 +183,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
           "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, torque, "
           "lag (distance from the visible part to the pose that the hand asks for), contacts and states")
       ->take_last();
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

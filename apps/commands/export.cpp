@@ -20,6 +20,7 @@
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/record/recorded_moment.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
 #include <glissade/viewer/scene_model.h>
 #include <glissade/viewer/view_scene.h>
@@ -135,6 +136,7 @@ void add_export_command(CLI::App& app, Command& chosen) {
   command->add_option("--log", options->log, "Recording of a run, which 'glissade record' or 'demo --record' wrote");
   command->add_option("--at", options->at_s, "Time in seconds, see below");
   command->add_option("--out", options->out, "File to write, .obj or .glb")->required();
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

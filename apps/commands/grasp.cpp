@@ -28,6 +28,7 @@
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
@@ -334,6 +335,7 @@ void add_grasp_command(CLI::App& app, Command& chosen) {
       ->add_option("--report", options->report,
                    "Folder for a page, index.html, with hands and objects in three dimensions, and plots")
       ->take_last();
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

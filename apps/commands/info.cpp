@@ -15,9 +15,9 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/load_or_build_tree.h>
 #include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/usage.h>
 #include <glissade/collision/dop_tree.h>
-#include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/mesh_topology.h>
 
 namespace glissade::apps {
@@ -54,7 +54,7 @@ struct Info {
 };
 
 Info gather(const InfoOptions& options) {
-  geometry::ImportedMesh imported = geometry::import_mesh(options.mesh, options.scale);
+  geometry::ImportedMesh imported = import_with_warnings(options.mesh, options.scale);
   const auto mesh = std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh));
   const collision::DopTree tree = load_or_build_tree(mesh, options.cache ? options.mesh : "");
   return {geometry::report(*mesh),
@@ -152,6 +152,7 @@ void add_info_command(CLI::App& app, Command& chosen) {
       ->check(positive());
   command->add_flag("--json", options->json, "Print one JSON object instead of a table");
   command->add_flag("--cache", options->cache, kCacheHelp);
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/record/log_mcap.h>
 #include <glissade/apps/record/log_tables.h>
 
@@ -89,6 +90,7 @@ void add_log_command(CLI::App& app, Command& chosen) {
   mcap->add_option("LOG", options->log, "Event log of LCM")->required();
   mcap->add_option("FILE", options->file, "File to write")->required();
   mcap->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
+  add_strict_option(*mcap);
   mcap->callback([options, &chosen] { chosen = [options] { return write_mcap(*options); }; });
 }
 

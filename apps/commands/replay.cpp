@@ -10,6 +10,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/durations.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/record/glove_player.h>
 #include <glissade/apps/record/offline_replay.h>
 #include <glissade/apps/record/replay_audiences.h>
@@ -143,6 +144,7 @@ void add_replay_command(CLI::App& app, Command& chosen) {
       ->excludes(view)
       ->excludes("--lcm");
   command->add_flag("--json", options->json, "Print the outcome as JSON");
+  add_strict_option(*command);
   command->callback([options, &chosen] {
     chosen = [options] { return options->lcm.url.empty() ? repeat(*options) : play(*options); };
   });

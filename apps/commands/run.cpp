@@ -237,6 +237,7 @@ void add_options(CLI::App& command_line, RunOptions& options) {
                   "or left hand, as the glove tells, of 0.183 m and 0.084 m")
       ->needs(fingers);
   add_sliding_options(command_line, options.choice);
+  add_strict_option(command_line);
   command_line
       .add_option("--seconds", options.seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();

@@ -2,6 +2,7 @@
 
 #include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene/parts_inside.h>
 
 namespace glissade::apps {

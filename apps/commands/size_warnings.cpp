@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <iostream>
 #include <limits>
 
 #include <Eigen/Geometry>
@@ -104,10 +103,6 @@ std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& sc
                         ", and everything around it " + others + " m: one of both has the wrong 'scale'");
   }
   return sentences;
-}
-
-void warn(const std::string& sentence) {
-  std::cerr << "glissade: warning: " << one_line(sentence) << '\n';
 }
 
 }  // namespace glissade::apps

@@ -28,7 +28,4 @@ std::vector<std::string> doubtful_objects(const Scene& file);
 /// what `scene` was made of.
 std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene);
 
-/// Writes a warning as one line to standard error.
-void warn(const std::string& sentence);
-
 }  // namespace glissade::apps

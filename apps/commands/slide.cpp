@@ -23,6 +23,7 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/parts_inside.h>
 #include <glissade/apps/scene/sliding_option.h>
@@ -339,6 +340,7 @@ void add_slide_command(CLI::App& app, Command& chosen) {
                    "Greatest angle from the goal at which the goal counts as reached")
       ->capture_default_str()
       ->check(not_negative());
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -13,9 +13,11 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
+#include <glissade/apps/open_files.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
@@ -139,6 +141,7 @@ void add_view_command(CLI::App& app, Command& chosen) {
       ->capture_default_str();
   CLI::Option* fingers = command->add_flag("--fingers", options->fingers, "The server runs with --fingers: show hands");
   command->add_option("--hand", options->hand_file, "Whose hands (YAML), as for 'glissade run'")->needs(fingers);
+  add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
 

@@ -63,6 +63,7 @@ class SceneReader {
     }
     if (root["script"]) scene.script_path = full_path(yaml_.text(root["script"], "script"));
     if (root["goal"]) scene.X_WGoal = read_pose(root["goal"], "goal");
+    scene.mesh_warnings = std::move(mesh_warnings_);
     return scene;
   }
 
@@ -167,6 +168,8 @@ class SceneReader {
     try {
       note_input(path);
       geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
+      for (const std::string& sentence : imported.warnings)
+        mesh_warnings_.push_back(path + ": " + sentence);
       geometry = {std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh)),
                   imported.degenerate_triangles};
       return geometry;
@@ -213,6 +216,7 @@ class SceneReader {
   YamlReader yaml_;
   std::string source_;
   std::filesystem::path base_folder_;
+  std::vector<std::string> mesh_warnings_;
   std::map<std::pair<std::string, double>, Geometry> files_;                          // by path and scale
   std::map<std::pair<std::string, std::map<std::string, double>>, Geometry> shapes_;  // by type and parameters
 };

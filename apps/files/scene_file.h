@@ -73,6 +73,7 @@ struct Scene {
   std::vector<SceneObject> objects;
   std::optional<std::string> script_path;
   std::optional<Eigen::Isometry3d> X_WGoal;
+  std::vector<std::string> mesh_warnings{};  ///< those of `import_mesh`, each after the name of the mesh file
 
   /// Throws std::invalid_argument, listing the known names, when there is no object `name`.
   const SceneObject& find(const std::string& name) const;

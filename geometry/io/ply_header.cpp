@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "io/plain_text.h"
 #include "io/polygon_triangulation.h"
 #include "io/text_scanner.h"
 
@@ -37,18 +38,9 @@ std::optional<PlyScalar> scalar_named(std::string_view name) {
   return std::nullopt;
 }
 
-bool is_integer(PlyScalar type) {
-  return type != PlyScalar::kFloat && type != PlyScalar::kDouble;
-}
-
-/// In bytes.
-double size_of(PlyScalar type) {
-  constexpr std::array<double, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
-  return kSizes.at(static_cast<std::size_t>(type));
-}
-
 double largest_count(PlyScalar type) {
-  constexpr std::array<double, 8> kLargest{127, 255, 32767, 65535, 2147483647, 2147483647, 0, 0};
+  constexpr double kLarge = 2147483647;
+  constexpr std::array<double, 8> kLargest{127, 255, 32767, 65535, kLarge, kLarge, kLarge, kLarge};
   return kLargest.at(static_cast<std::size_t>(type));
 }
 
@@ -56,10 +48,12 @@ double largest_count(PlyScalar type) {
 class PlyHeaderReader {
  public:
   PlyHeaderReader(const std::filesystem::path& path, std::string_view bytes)
-      : path_(path), size_(bytes.size()), lines_(without_byte_order_mark(bytes)) {}
+      : path_(path), bytes_(bytes), lines_(without_byte_order_mark(bytes)) {}
 
   PlyHeader read() {
-    if (!lines_.next() || lines_.line() != "ply") reject(path_, "line 1: a PLY file begins with 'ply'");
+    reject_utf16(path_, bytes_);
+    if (lines_.next()) split(lines_.line(), words_);
+    if (words_.size() != 1 || words_[0] != "ply") reject(path_, "line 1: a PLY file begins with 'ply'");
     bool has_format = false;
     while (true) {
       if (!lines_.next()) fail_without_end();
@@ -79,7 +73,10 @@ class PlyHeaderReader {
     }
     if (!has_format) fail("the header names no format");
     check_layout();
-    header_.bytes = size_ - lines_.rest().size();
+    header_.bytes = bytes_.size() - lines_.rest().size();
+    // Where lines end in CR alone, a line feed after the last one is a byte of the body.
+    const std::string_view header = bytes_.substr(0, header_.bytes);
+    if (header.ends_with("\r\n") && header.find('\n') == header.size() - 1) --header_.bytes;
     if (header_.bytes == kLongestHeader) fail_without_end();  // its last line may go on
     header_.lines = lines_.number();
     return std::move(header_);
@@ -89,7 +86,7 @@ class PlyHeaderReader {
   [[noreturn]] void fail(const std::string& what) const { reject(path_, lines_.where() + ": " + what); }
 
   [[noreturn]] void fail_without_end() const {
-    if (size_ < kLongestHeader) fail("the file is truncated, 'end_header' is missing");
+    if (bytes_.size() < kLongestHeader) fail("the file is truncated, 'end_header' is missing");
     reject(path_, "The header does not end within its first " + std::to_string(kLongestHeader) + " bytes");
   }
 
@@ -120,31 +117,39 @@ class PlyHeaderReader {
     if (!is_list && words_.size() != 3) fail("a property needs a type and a name");
     const auto type = scalar_named(words_[is_list ? 3 : 1]);
     const auto count_type = is_list ? scalar_named(words_[2]) : std::nullopt;
-    if (!type || (is_list && (!count_type || !is_integer(*count_type)))) fail("the type of the property is not known");
+    if (!type || (is_list && !count_type)) fail("the type of the property is not known");
     header_.elements.back().properties.push_back({std::string(words_.back()), *type, count_type});
   }
 
   void check_layout() const {
     std::string axes;
-    int lists = 0;
     for (const PlyElement& element : header_.elements) {
+      if (element.name != "vertex") continue;
       for (const PlyProperty& property : element.properties) {
         const bool is_axis = property.name == "x" || property.name == "y" || property.name == "z";
-        if (element.name == "vertex" && is_axis && !property.count_type) axes += property.name;
-        if (element.name == "face" && property.is_corner_list()) {
-          ++lists;
-          if (!is_integer(property.type))
-            reject(path_, "The property " + property.name + " must be a list of integers");
-        }
+        if (is_axis && !property.count_type) axes += property.name;
       }
     }
     std::sort(axes.begin(), axes.end());
     if (axes != "xyz") reject(path_, "The header must give the element vertex the properties x, y and z, once each");
-    if (lists != 1) reject(path_, "The header must give the element face one list vertex_indices: there are no faces");
+    const bool has_surface = std::any_of(header_.elements.begin(), header_.elements.end(),
+                                         [](const PlyElement& element) { return has_corners(element); });
+    if (!has_surface) reject(path_, "The file has no faces: the header names neither an element face nor tristrips");
+    for (const PlyElement& element : header_.elements) {
+      const auto lists = std::count_if(element.properties.begin(), element.properties.end(),
+                                       [](const PlyProperty& property) { return property.is_corner_list(); });
+      if (has_corners(element) && lists != 1) {
+        reject(path_, "The header must give the element " + element.name + " one list vertex_indices or vertex_index");
+      }
+    }
+  }
+
+  static bool has_corners(const PlyElement& element) {
+    return (element.holds_faces() || element.holds_strips()) && element.count > 0;
   }
 
   const std::filesystem::path& path_;
-  std::size_t size_;
+  std::string_view bytes_;
   LineScanner lines_;
   std::vector<std::string_view> words_;
   std::set<std::string_view> names_;  // of elements
@@ -161,14 +166,9 @@ Bounds bytes_of_one(const PlyElement& element) {
   Bounds bounds;
   for (const PlyProperty& property : element.properties) {
     const double size = size_of(property.type);
-    double fewest = 1;
-    double most = 1;
-    if (property.count_type) {
-      const bool is_face = element.name == "face" && property.is_corner_list();
-      fewest = is_face ? 3 : 0;
-      most = largest_count(*property.count_type);
-      if (is_face) most = std::min(most, static_cast<double>(kMostCorners));
-    }
+    const double fewest = property.count_type ? 0 : 1;
+    double most = property.count_type ? largest_count(*property.count_type) : 1;
+    if (element.holds_faces() && property.is_corner_list()) most = std::min(most, static_cast<double>(kMostCorners));
     const double count_size = property.count_type ? size_of(*property.count_type) : 0.0;
     bounds.least += count_size + fewest * size;
     bounds.most += count_size + most * size;
@@ -181,6 +181,11 @@ std::string whole(double number) {
 }
 
 }  // namespace
+
+double size_of(PlyScalar type) {
+  constexpr std::array<double, 8> kSizes{1, 1, 2, 2, 4, 4, 4, 8};
+  return kSizes.at(static_cast<std::size_t>(type));
+}
 
 PlyHeader read_ply_header(MeshFile& file) {
   const std::string beginning = file.beginning(kLongestHeader);

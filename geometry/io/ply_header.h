@@ -17,12 +17,15 @@ namespace glissade::geometry {
 
 enum class PlyScalar { kInt8, kUint8, kInt16, kUint16, kInt32, kUint32, kFloat, kDouble };
 
+/// In bytes.
+double size_of(PlyScalar type);
+
 struct PlyProperty {
   std::string name;
   PlyScalar type;
   std::optional<PlyScalar> count_type;  // for lists
 
-  /// Whether it lists the corners of faces.
+  /// Whether it lists the corners of faces or strips.
   bool is_corner_list() const { return count_type && (name == "vertex_indices" || name == "vertex_index"); }
 };
 
@@ -30,6 +33,9 @@ struct PlyElement {
   std::string name;
   std::int64_t count;
   std::vector<PlyProperty> properties;
+
+  bool holds_faces() const { return name == "face"; }
+  bool holds_strips() const { return name == "tristrips"; }
 };
 
 /// The content of the header, up to the end of the line "end_header".
@@ -40,9 +46,9 @@ struct PlyHeader {
   std::int64_t lines = 0;
 };
 
-/// Reads the header from the beginning of a file. The element `vertex` has x, y and z, once each, and the element
-/// `face` one list of corners. Throws std::invalid_argument for a header that is malformed, truncated or longer than 1
-/// MiB.
+/// Reads the header from the beginning of a file. The element `vertex` has x, y and z, once each; the elements `face`
+/// and `tristrips` have one list of corners, each if there is one. Throws std::invalid_argument for a header that is
+/// malformed, truncated or longer than 1 MiB.
 PlyHeader read_ply_header(MeshFile& file);
 
 /// Rejects a binary file whose size the header rules out.

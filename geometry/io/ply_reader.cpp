@@ -13,6 +13,8 @@
 #include <glissade/base/byte_order.h>
 
 #include "io/mesh_readers.h"
+#include "io/mesh_warnings.h"
+#include "io/plain_text.h"
 #include "io/ply_header.h"
 #include "io/polygon_triangulation.h"
 #include "io/text_scanner.h"
@@ -36,19 +38,49 @@ class PlyBodyReader {
       : path_(path), byte_order_(header.byte_order), bytes_(bytes), words_(bytes), header_lines_(header.lines) {}
 
   /// The next number. That of a text is read as a double, whatever its type.
-  double next(PlyScalar type, const Place& where) { return byte_order_ ? next_binary(type, where) : next_word(where); }
+  double next(PlyScalar type, const Place& where) {
+    if (byte_order_) return next_binary(type, where);
+    const std::string_view word = next_word(where);
+    const auto value = parse_number(word);
+    if (!value) reject(path_, this->where(where) + ": '" + printable(word) + "' is not a number");
+    return *value;
+  }
+
+  /// Skips numbers that are not needed, and need not be any in a text.
+  void skip(PlyScalar type, double count, const Place& where) {
+    if (byte_order_) {
+      const double bytes = count * size_of(type);
+      if (bytes > static_cast<double>(bytes_.size() - offset_)) reject_truncated(where);
+      offset_ += static_cast<std::size_t>(bytes);
+    } else {
+      for (double i = 0; i < count; ++i)
+        next_word(where);
+    }
+  }
+
+  /// The element that has just been read, and in a text its line.
+  std::string where(const Place& place) const {
+    if (byte_order_) return place.text();
+    return "line " + std::to_string(header_lines_ + words_.lines().number()) + ", " + place.text();
+  }
 
   /// Rejects any remaining content other than blanks.
   void expect_end() {
-    const bool has_more =
-        byte_order_ ? bytes_.find_first_not_of(" \t\r\n", offset_) != std::string_view::npos : words_.has_word();
-    if (has_more) reject(path_, "The file is longer than its header says");
+    const std::string_view rest = bytes_.substr(offset_);
+    if (byte_order_ && rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
+      reject(path_, "The file is longer than its header says: " + std::to_string(rest.size()) +
+                        " bytes follow the last element");
+    }
+    if (!byte_order_ && has_word()) {
+      reject(path_, "line " + std::to_string(header_lines_ + words_.lines().number()) +
+                        ": the file is longer than its header says");
+    }
   }
 
  private:
   template <class Number>
   double number(const Place& where) {
-    if (bytes_.size() - offset_ < sizeof(Number)) reject(path_, where.text() + ": the file is truncated here");
+    if (bytes_.size() - offset_ < sizeof(Number)) reject_truncated(where);
     const auto value = base::number_at<Number>(bytes_, offset_, *byte_order_);
     offset_ += sizeof(Number);
     return static_cast<double>(value);
@@ -76,14 +108,23 @@ class PlyBodyReader {
     return number<double>(where);
   }
 
-  double next_word(const Place& where) {
-    if (!words_.has_word()) reject(path_, where.text() + ": the file is truncated here");
-    const auto value = parse_number(words_.word());
-    if (!value) {
-      reject(path_, "line " + std::to_string(header_lines_ + words_.lines().number()) + ", " + where.text() +
-                        ": this is not a number");
+  /// Whether there is another word in a text; comments, which belong into the header, are skipped.
+  bool has_word() {
+    while (words_.has_word()) {
+      const std::string_view rest = words_.rest_of_line();
+      if (!rest.starts_with("comment") && !rest.starts_with("obj_info")) return true;
+      words_.skip_line();
     }
-    return *value;
+    return false;
+  }
+
+  std::string_view next_word(const Place& where) {
+    if (!has_word()) reject_truncated(where);
+    return words_.word();
+  }
+
+  [[noreturn]] void reject_truncated(const Place& place) const {
+    reject(path_, where(place) + ": the file ends here: it is truncated, or not as its header says");
   }
 
   const std::filesystem::path& path_;
@@ -94,7 +135,14 @@ class PlyBodyReader {
   std::int64_t header_lines_;
 };
 
-/// Collects the vertices and faces of a PLY file.
+constexpr WarningKind kFewCorners{"face has fewer than 3 corners and is left out",
+                                  "faces have fewer than 3 corners and are left out"};
+constexpr WarningKind kShortStrip{"strip has fewer than 3 corners and is left out",
+                                  "strips have fewer than 3 corners and are left out"};
+constexpr WarningKind kOtherElement{"element other than a face or strip lists vertices and is left out",
+                                    "elements other than faces and strips list vertices and are left out"};
+
+/// Collects the vertices, faces and strips of a PLY file.
 class PlyReader {
  public:
   PlyReader(const MeshFile& file, const PlyHeader& header, std::string_view bytes)
@@ -112,8 +160,9 @@ class PlyReader {
       }
     }
     body_.expect_end();
-    if (face_corners_.empty()) reject(path_, "The file has no faces");
+    if (face_corners_.empty()) reject(path_, "The file has no faces of 3 corners or more");
     add_faces();
+    soup_.warnings = warnings_.sentences();
     return std::move(soup_);
   }
 
@@ -122,15 +171,13 @@ class PlyReader {
     const bool is_vertex = where.element.name == "vertex";
     Eigen::Vector3d point = Eigen::Vector3d::Zero();
     for (const PlyProperty& property : where.element.properties) {
+      const Eigen::Index axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : 3;
       if (property.count_type) {
         read_list(property, where);
-        continue;
-      }
-      const double value = body_.next(property.type, where);
-      const Eigen::Index axis = property.name == "x" ? 0 : property.name == "y" ? 1 : property.name == "z" ? 2 : 3;
-      if (is_vertex && axis < 3) {
-        if (!is_coordinate(value)) reject_coordinate(path_, where.text(), value);
-        point[axis] = value;
+      } else if (is_vertex && axis < 3) {
+        point[axis] = body_.next(property.type, where);
+      } else {
+        body_.skip(property.type, 1, where);
       }
     }
     if (is_vertex) soup_.mesh.vertices.push_back(point);
@@ -139,22 +186,59 @@ class PlyReader {
   void read_list(const PlyProperty& property, const Place& where) {
     const double count = body_.next(*property.count_type, where);
     if (!(count >= 0) || count > std::numeric_limits<std::int32_t>::max() || count != std::floor(count)) {
-      reject(path_, where.text() + ": a list cannot have this many entries");
+      reject(path_, body_.where(where) + ": a list cannot have this many entries");
     }
-    const bool is_face = where.element.name == "face" && property.is_corner_list();
-    if (is_face && count < 3) {
-      reject(path_,
-             where.text() + ": a face needs at least 3 corners, but has " + std::to_string(static_cast<int>(count)));
+    if (property.is_corner_list() && where.element.holds_faces()) {
+      read_face(property.type, static_cast<std::int32_t>(count), where);
+    } else if (property.is_corner_list() && where.element.holds_strips()) {
+      read_strips(property.type, static_cast<std::int32_t>(count), where);
+    } else {
+      const bool may_hold_surface = property.is_corner_list() && where.element.name != "vertex";
+      if (may_hold_surface) warnings_.add(kOtherElement, body_.where(where));
+      body_.skip(property.type, count, where);
     }
-    if (is_face && count > static_cast<double>(kMostCorners)) {
-      reject(path_, where.text() + ": a face of " + std::to_string(static_cast<std::int64_t>(count)) +
-                        " corners, at most " + std::to_string(kMostCorners) + " are supported");
+  }
+
+  void read_face(PlyScalar type, std::int32_t count, const Place& where) {
+    if (count < 3) {
+      warnings_.add(kFewCorners, body_.where(where));
+      body_.skip(type, count, where);
+      return;
     }
-    for (double k = 0; k < count; ++k) {
-      const double value = body_.next(property.type, where);
-      if (is_face) corners_.push_back(checked_index(value, where));
+    if (count > static_cast<std::int32_t>(kMostCorners)) {
+      reject(path_, body_.where(where) + ": a face of " + std::to_string(count) + " corners, at most " +
+                        std::to_string(kMostCorners) + " are supported");
     }
-    if (is_face) face_corners_.push_back(static_cast<std::uint16_t>(count));
+    for (std::int32_t k = 0; k < count; ++k)
+      corners_.push_back(checked_index(body_.next(type, where), where));
+    face_corners_.push_back(static_cast<std::uint16_t>(count));
+  }
+
+  /// Strips, each but the last one ended by -1: a corner makes a triangle with the two before it, and every second
+  /// triangle is turned round.
+  void read_strips(PlyScalar type, std::int32_t count, const Place& where) {
+    std::int32_t length = 0;
+    std::array<std::int32_t, 2> last{};
+    const auto end_strip = [&] {
+      if (length == 1 || length == 2) warnings_.add(kShortStrip, body_.where(where));
+      length = 0;
+    };
+    for (std::int32_t k = 0; k < count; ++k) {
+      const double index = body_.next(type, where);
+      if (index == -1) {
+        end_strip();
+        continue;
+      }
+      const std::int32_t corner = checked_index(index, where);
+      if (length >= 2) {
+        const std::size_t odd = static_cast<std::size_t>(length) % 2;
+        corners_.insert(corners_.end(), {last[odd], last[1 - odd], corner});
+        face_corners_.push_back(3);
+      }
+      last = {last[1], corner};
+      ++length;
+    }
+    end_strip();
   }
 
   std::int32_t checked_index(double index, const Place& where) const {
@@ -164,7 +248,7 @@ class PlyReader {
     // In a text file the index may be a fraction, beyond every integer, or not a number at all.
     std::array<char, 32> digits{};
     const char* end = std::to_chars(digits.data(), digits.data() + digits.size(), index).ptr;
-    reject(path_, where.text() + ": the vertex index " +
+    reject(path_, body_.where(where) + ": the vertex index " +
                       std::string(digits.begin(), digits.begin() + (end - digits.data())) +
                       " is out of range, the file has " + std::to_string(vertex_count_) + " vertices");
   }
@@ -174,7 +258,12 @@ class PlyReader {
     const std::span<const std::int32_t> corners(corners_);
     std::size_t begin = 0;
     for (const std::uint16_t count : face_corners_) {
-      add_polygon(file_, corners.subspan(begin, count), soup_);
+      const std::span<const std::int32_t> polygon = corners.subspan(begin, count);
+      for (const std::int32_t corner : polygon) {
+        const std::optional<double> bad = bad_coordinate(soup_.mesh.vertices[static_cast<std::size_t>(corner)]);
+        if (bad) reject_coordinate(path_, "vertex " + std::to_string(corner) + ", of a face", *bad);
+      }
+      add_polygon(file_, polygon, soup_);
       begin += count;
     }
   }
@@ -186,6 +275,7 @@ class PlyReader {
   std::int64_t vertex_count_ = 0;
   std::vector<std::uint16_t> face_corners_;  // number of corners of each face
   std::vector<std::int32_t> corners_;        // of all faces
+  MeshWarnings warnings_;
   TriangleSoup soup_;
 };
 
@@ -195,6 +285,7 @@ TriangleSoup read_ply(MeshFile& file) {
   const PlyHeader header = read_ply_header(file);
   check_ply_size(file, header);
   const std::string content = file.content();
+  if (!header.byte_order) reject_zero_bytes(file.path(), content);
   return PlyReader(file, header, std::string_view(content).substr(header.bytes)).read();
 }
 

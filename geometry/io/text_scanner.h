@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,7 +23,7 @@ inline std::string_view without_byte_order_mark(std::string_view text) {
   return text.starts_with(kMark) ? text.substr(kMark.size()) : text;
 }
 
-/// Splits a text into lines, which may end in LF or CR LF.
+/// Splits a text into lines, which end in LF, CR LF or CR.
 class LineScanner {
  public:
   explicit LineScanner(std::string_view text) : rest_(text) {}
@@ -30,10 +31,10 @@ class LineScanner {
   // Advances to the next line; false at the end of the text.
   bool next() {
     if (rest_.empty()) return false;
-    const std::size_t end = rest_.find('\n');
-    line_ = rest_.substr(0, end);
-    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
-    if (!line_.empty() && line_.back() == '\r') line_.remove_suffix(1);
+    const auto* const end = std::find_if(rest_.begin(), rest_.end(), [](char c) { return c == '\n' || c == '\r'; });
+    line_ = rest_.substr(0, static_cast<std::size_t>(end - rest_.begin()));
+    rest_.remove_prefix(line_.size());
+    rest_.remove_prefix(rest_.starts_with("\r\n") ? 2 : std::min<std::size_t>(1, rest_.size()));
     ++number_;
     return true;
   }
@@ -60,34 +61,53 @@ inline void split(std::string_view line, std::vector<std::string_view>& words) {
   }
 }
 
-/// Splits a text into words, across its lines.
+/// Splits a text into words, across its lines. A copy looks ahead.
 class WordScanner {
  public:
   explicit WordScanner(std::string_view text) : lines_(text) {}
 
   // Whether there is another word; if so, `lines()` is at its line.
   bool has_word() {
-    while (next_ >= words_.size()) {
+    while (!has_word_in_line()) {
       if (!lines_.next()) return false;
-      split(lines_.line(), words_);
-      next_ = 0;
+      rest_of_line_ = lines_.line();
     }
     return true;
   }
+  bool has_word_in_line() {
+    rest_of_line_.remove_prefix(std::min(rest_of_line_.find_first_not_of(kBlanks), rest_of_line_.size()));
+    return !rest_of_line_.empty();
+  }
   // Only after has_word().
-  std::string_view word() { return words_[next_++]; }
-  void skip_line() { next_ = words_.size(); }
+  std::string_view word() {
+    const std::string_view word = rest_of_line_.substr(0, rest_of_line_.find_first_of(kBlanks));
+    rest_of_line_.remove_prefix(word.size());
+    return word;
+  }
+  std::string_view rest_of_line() const { return rest_of_line_; }
+  void skip_line() { rest_of_line_ = {}; }
   const LineScanner& lines() const { return lines_; }
 
  private:
   LineScanner lines_;
-  std::vector<std::string_view> words_;
-  std::size_t next_ = 0;
+  std::string_view rest_of_line_;
 };
+
+/// Whether the word is a number that is none as old C libraries write it: "-1.#IND", "1.#QNAN0", "1.#INF".
+inline bool is_old_nan(std::string_view word) {
+  if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
+  if (!word.starts_with("1.#")) return false;
+  word.remove_prefix(3);
+  while (!word.empty() && word.back() == '0') {
+    word.remove_suffix(1);
+  }
+  return word == "IND" || word == "INF" || word == "QNAN" || word == "SNAN" || word == "NAN";
+}
 
 /// The whole word as a number, "nan" and "inf" included; nothing if it is not a number. A value too large for a double
 /// counts as infinite, a value too small as zero.
 inline std::optional<double> parse_number(std::string_view word) {
+  if (is_old_nan(word)) return std::numeric_limits<double>::quiet_NaN();
   if (word.starts_with('+')) word.remove_prefix(1);
   double value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
@@ -98,6 +118,14 @@ inline std::optional<double> parse_number(std::string_view word) {
   }
   if (error != std::errc{}) return std::nullopt;
   return value;
+}
+
+/// The beginning of a text of the file, fit for a message.
+inline std::string printable(std::string_view text) {
+  std::string result(text.substr(0, 40));
+  std::replace_if(
+      result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return result;
 }
 
 inline std::optional<std::int64_t> parse_integer(std::string_view word) {

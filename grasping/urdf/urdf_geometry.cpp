@@ -1,5 +1,6 @@
 #include "urdf/urdf_geometry.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <stdexcept>
@@ -54,10 +55,16 @@ path resolved(const std::string& name, const path& file) {
   return file.parent_path() / (name.starts_with(local) ? name.substr(local.size()) : name);
 }
 
-TriangleMesh from_file(const urdf::Mesh& mesh, const path& file) {
+TriangleMesh from_file(const urdf::Mesh& mesh, const path& file, std::vector<std::string>& warnings) {
   const Eigen::Vector3d scale = to_vector(mesh.scale);
   if (!scale.allFinite() || (scale.array() == 0.0).any()) throw std::invalid_argument("a scale is 0 or not finite");
-  TriangleMesh imported = geometry::import_mesh(resolved(mesh.filename, file)).mesh;
+  const path mesh_file = resolved(mesh.filename, file);
+  geometry::ImportedMesh with_warnings = geometry::import_mesh(mesh_file);
+  for (const std::string& sentence : with_warnings.warnings) {
+    const std::string warning = mesh_file.string() + ": " + sentence;
+    if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+  }
+  TriangleMesh imported = std::move(with_warnings.mesh);
   for (Eigen::Vector3d& p : imported.vertices)
     p = scale.cwiseProduct(p);
   if (scale.prod() < 0.0) {
@@ -67,7 +74,7 @@ TriangleMesh from_file(const urdf::Mesh& mesh, const path& file) {
   return imported;
 }
 
-TriangleMesh mesh_of(const urdf::Geometry& shape, const path& file) {
+TriangleMesh mesh_of(const urdf::Geometry& shape, const path& file, std::vector<std::string>& warnings) {
   switch (shape.type) {
     case urdf::Geometry::SPHERE:
       return geometry::make_sphere(static_cast<const urdf::Sphere&>(shape).radius, kSphereTriangles);
@@ -78,20 +85,21 @@ TriangleMesh mesh_of(const urdf::Geometry& shape, const path& file) {
       return cylinder(round.radius, round.length);
     }
     case urdf::Geometry::MESH:
-      return from_file(static_cast<const urdf::Mesh&>(shape), file);
+      return from_file(static_cast<const urdf::Mesh&>(shape), file, warnings);
   }
   throw std::invalid_argument("the collision geometry is of an unknown kind");
 }
 
 }  // namespace
 
-std::shared_ptr<const TriangleMesh> collision_mesh(const urdf::Link& link, const path& file) {
+std::shared_ptr<const TriangleMesh> collision_mesh(const urdf::Link& link, const path& file,
+                                                   std::vector<std::string>& warnings) {
   std::vector<TriangleMesh> meshes;
   try {
     for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
       const auto X_LG = geometry::rigid_pose(to_pose(collision->origin));
       if (!X_LG) throw std::invalid_argument("the origin of a collision geometry is not finite");
-      meshes.push_back(transformed(mesh_of(*collision->geometry, file), *X_LG));
+      meshes.push_back(transformed(mesh_of(*collision->geometry, file, warnings), *X_LG));
     }
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(file.string() + ": link '" + link.name + "': " + error.what());

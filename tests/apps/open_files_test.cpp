@@ -1,4 +1,4 @@
-// Meshes from which triangles are left out: every command that reads one says so.
+// Meshes from which something is left out: every command that reads one says so, and refuses it if it is asked to.
 
 #include <algorithm>
 #include <string>
@@ -63,6 +63,60 @@ TEST_F(OpenFiles, CommandsOfScenesSayWhatTheyLeaveOut) {
     EXPECT_EQ(said.find("'twin'"), std::string::npos) << said;
     EXPECT_EQ(said.find("'wall'"), std::string::npos) << said;
   }
+}
+
+/// A file with a face of two corners, and what every command says of it.
+class MeshWarningsOfCommands : public OpenFiles {
+ protected:
+  /// The command with the option, which is refused.
+  static void expect_strict(std::vector<std::string> arguments, const std::string& warning) {
+    arguments.emplace_back("--strict");
+    test_support::expect_refused(arguments, {"glissade: " + warning, "--strict"});
+  }
+
+  std::string edge = folder.write("edge.obj", std::string(kTetrahedronObj) + "f 1 2\n");
+  std::string warning = edge + ": 1 face has fewer than 3 corners and is left out (line 9).";
+  std::string line = "glissade: warning: " + warning + "\n";
+};
+
+TEST_F(MeshWarningsOfCommands, OfMeshes) {
+  const ProgramResult info = glissade({"info", edge});
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_EQ(info.standard_error, line);
+  EXPECT_EQ(glissade({"collide", edge, edge}).standard_error, line);
+  expect_strict({"info", edge}, warning);
+  expect_strict({"collide", whole, edge}, warning);
+  EXPECT_EQ(glissade({"info", whole, "--strict"}).exit_code, 0);
+  EXPECT_EQ(glissade({"info", slivers, "--strict"}).exit_code, 0) << "triangles without area are no surface";
+}
+
+TEST_F(MeshWarningsOfCommands, OfScenesOnceForEachFile) {
+  const std::string file = scene(
+      "  - {name: part, movable: true, mesh: edge.obj}\n"
+      "  - {name: twin, mesh: edge.obj, pose: {position_m: [3, 0, 0]}}\n"
+      "  - {name: large, mesh: edge.obj, scale: 2, pose: {position_m: [6, 0, 0]}}\n");
+  const std::string way = folder.write("way.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.01,0,0,0,1,0,0,0\n");
+  for (const std::vector<std::string>& arguments : {
+           std::vector<std::string>{"slide", file, "--part", "part", "--trajectory", way},
+           {"demo", "--scene", file, "--offline"},
+           {"export", file, "--out", folder.path("out.obj")},
+           {"view", file, "--fingers", "--hand", "no_such_hand.yaml"},
+       }) {
+    SCOPED_TRACE(arguments.front());
+    const std::string said = glissade(arguments).standard_error;
+    EXPECT_THAT(said, HasSubstr(line));
+    EXPECT_EQ(said.find(line), said.rfind(line)) << said;
+    expect_strict(arguments, warning);
+  }
+  expect_strict({"grasp", file, "--hand-trajectory", GLISSADE_SCENES "/ball_and_tray_hand.csv"}, warning);
+}
+
+TEST_F(MeshWarningsOfCommands, CommandsThatLoadMeshesHaveTheOption) {
+  for (const char* command :
+       {"info", "collide", "slide", "grasp", "demo", "run", "record", "replay", "export", "view"}) {
+    EXPECT_THAT(glissade({command, "--help"}).standard_output, HasSubstr("--strict")) << command;
+  }
+  EXPECT_THAT(glissade({"log", "to-mcap", "--help"}).standard_output, HasSubstr("--strict"));
 }
 
 }  // namespace

@@ -50,6 +50,12 @@ void check(const geometry::TriangleMesh& mesh) {
   require(twins == sorted.end(), "vertices that are not welded");
 }
 
+void check_message(const std::string& message) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
+  require(std::none_of(message.begin(), message.end(), is_control), "a message with control characters");
+  require(message.size() < 2000, "a message that is too long");
+}
+
 /// The file under test, and next to it one that a glTF document may refer to.
 class Files {
  public:
@@ -71,14 +77,15 @@ bool try_mesh_import(const std::string& extension, std::string_view bytes) {
     const geometry::ImportedMesh imported = geometry::import_mesh(path);
     require(imported.degenerate_triangles >= 0 && imported.polygons_triangulated >= 0, "a negative count");
     check(imported.mesh);
+    require(imported.warnings.size() < 10, "more warnings than kinds");
+    for (const std::string& warning : imported.warnings)
+      check_message(warning);
     require(std::isfinite(geometry::report(imported.mesh).area), "an area that is not finite");
     return true;
   } catch (const std::invalid_argument& error) {
     const std::string message = error.what();
     require(message.starts_with(path), "a message that does not begin with the name of the file");
-    const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
-    require(std::none_of(message.begin(), message.end(), is_control), "a message with control characters");
-    require(message.size() < 2000, "a message that is too long");
+    check_message(message);
     return false;
   }
 }

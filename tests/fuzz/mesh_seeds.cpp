@@ -114,14 +114,39 @@ std::string text_ply_of_polygons() {
          "0 0 0\n0 2 0\n0 2 1\n0 1 1\n0 1 2\n1.5 0 2\n3 -1 0 1\n";
 }
 
+/// Statements that are skipped, with and without a warning.
+std::string obj_dialect() {
+  return "8 12\rusemtl C:\\\rcurv 0 1 1 2\rend\r" + geometry::kObj +
+         "v nan 0 0 # unused\nv 0 0 0 1 red\nf 1\nf -1 2 \\\n# f 3\nfo 2 3 4 #\n";
+}
+
+/// Keywords in two words, facets outside of solids, lines of other programs, and no end.
+std::string stl_dialect() {
+  return "; made by hand\nfacet normal -1.#IND 0 0 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 end loop "
+         "endfacet\n"
+         "solid a\rSOLID b\rcolor 1 0 0\rfacet\routerloop\rvertex 0 0 0\rvertex 1 0 0\rvertex 0 0 1\rendfacet\r"
+         "endsolidb solid facet normal 0 0 1 outer loop vertex 0 0 0 vertex 0 1 0 vertex 0 0 1 endloop endfacet";
+}
+
+/// Strips and faces, some too short, odd numbers that are not read, and comments in the body.
+std::string ply_dialect() {
+  return "ply\rformat ascii 1.0\rcomment\relement patch 1\rproperty list char double vertex_index\relement vertex 5\r"
+         "property float nx\rproperty float x\rproperty float y\rproperty float z\relement face 3\r"
+         "property list float double vertex_indices\relement tristrips 1\rproperty list int int vertex_indices\r"
+         "end_header\r2 0 1\r-1.#IND 0 0 0\r? 1 0 0\rx 0 1 0\rcomment no vertex\r1.#QNAN 0 0 1\rnan nan inf 1e999\r0\r"
+         "2 0 1\r3 0 1 2\r9 0 1 3 2 -1 0 -1 3 1\robj_info end\r";
+}
+
 std::vector<Seed> obj_seeds() {
   return {{"tetrahedron.obj", geometry::kObj},   {"box.obj", obj_of(box(), false)},
           {"relative.obj", obj_of(box(), true)}, {"crlf.obj", with_crlf(obj_of(sphere(), false))},
-          {"polygons.obj", obj_of_polygons()},   {"byte_order_mark.obj", geometry::kByteOrderMark + obj_of_polygons()}};
+          {"polygons.obj", obj_of_polygons()},   {"byte_order_mark.obj", geometry::kByteOrderMark + obj_of_polygons()},
+          {"dialect.obj", obj_dialect()}};
 }
 
 std::vector<Seed> stl_seeds() {
   return {{"tetrahedron.stl", geometry::kAsciiStl},
+          {"dialect.stl", stl_dialect()},
           {"two_solids.stl", stl_of(box()) + with_crlf(stl_of(sphere()))},
           {"byte_order_mark.stl", geometry::kByteOrderMark + geometry::kAsciiStl},
           {"solid.stl", geometry::binary_stl("solid but binary")},
@@ -131,6 +156,7 @@ std::vector<Seed> stl_seeds() {
 
 std::vector<Seed> ply_seeds() {
   return {{"tetrahedron.ply", geometry::kAsciiPly},
+          {"dialect.ply", ply_dialect()},
           {"polygons.ply", text_ply_of_polygons()},
           {"crlf.ply", geometry::kByteOrderMark + with_crlf(text_ply_of_polygons())},
           {"mixed_little.ply", geometry::binary_ply(false)},
@@ -142,13 +168,14 @@ std::vector<Seed> ply_seeds() {
 }
 
 std::vector<std::string> obj_words() {
-  return {"\nv ",    "\nvt ",   "\nvn ",   "\nvp ",     "\nf ",      "\nl ",      "\np ",
-          "\ng ",    "\no ",    "\ns 1",   "\nusemtl ", "\nmtllib ", "\ncstype ", "\ncurv ",
-          "\nend\n", "\nlod 1", "\ncall ", "\\\n",      "//",        "/1/1",      "\nf 1 2 3"};
+  return {"\nv ",  "\nvt ",     "\nvn ",     "\nvp ",     "\nf ",    "\nl ",    "\np ",     "\ng ",    "\no ",
+          "\ns 1", "\nusemtl ", "\nmtllib ", "\ncstype ", "\ncurv ", "\nend\n", "\nlod 1",  "\ncall ", "\\\n",
+          " # ",   "\nfo ",     "\r",        "1.#IND",    "//",      "/1/1",    "\nf 1 2 3"};
 }
 
 std::vector<std::string> stl_words() {
-  return {"solid ", "facet normal 0 0 0", "outer loop", "vertex ", "endloop", "endfacet", "endsolid", "SOLID"};
+  return {"solid ", "facet normal 0 0 0", "outer loop", "vertex ",      "endloop", "endfacet", "endsolid",
+          "SOLID",  "end loop",           "\r",         "facet normal", ";"};
 }
 
 std::vector<std::string> ply_words() {
@@ -165,6 +192,8 @@ std::vector<std::string> ply_words() {
           "property list uchar int vertex_indices\n",
           "vertex_index",
           "comment ",
+          "element tristrips 1\n",
+          "\r",
           "char ",
           "uchar ",
           "short ",

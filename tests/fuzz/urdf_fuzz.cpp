@@ -33,7 +33,7 @@ const std::string kArm =
 bool try_input(std::string_view bytes) {
   std::ofstream(urdf_path(), std::ios::binary) << bytes;
   try {
-    const grasping::KinematicChain chain = grasping::read_urdf(urdf_path());
+    const grasping::KinematicChain chain = grasping::read_urdf(urdf_path()).chain;
     std::vector<double> values(chain.values().size(), 0.0);
     chain.clamp(values);
     std::vector<Eigen::Isometry3d> X_RL(chain.links().size());

@@ -58,7 +58,7 @@ std::shared_ptr<const KinematicChain> gripper_chain(bool has_one_motor) {
                            has_one_motor ? "<mimic joint='inner_joint_0' multiplier='0.5' offset='0.3'/>" : "");
   }
   const test_support::TemporaryFolder folder;
-  return std::make_shared<const KinematicChain>(read_urdf(folder.write("gripper.urdf", text + "</robot>")));
+  return std::make_shared<const KinematicChain>(read_urdf(folder.write("gripper.urdf", text + "</robot>")).chain);
 }
 
 Posture with_all(const KinematicChain& chain, double angle) {

@@ -67,7 +67,7 @@ std::size_t number_of(const KinematicChain& chain, const std::string& link) {
 
 TEST(UrdfChain, IsAThreeFingerGripperThatClosesWithOneValue) {
   const TemporaryFolder folder;
-  const KinematicChain chain = read_urdf(folder.write("gripper.urdf", gripper()));
+  const KinematicChain chain = read_urdf(folder.write("gripper.urdf", gripper())).chain;
   ASSERT_EQ(chain.values().size(), 1U);
   EXPECT_EQ(chain.values()[0].name, "finger_0");
   EXPECT_EQ(chain.values()[0].lower, -0.1);
@@ -89,7 +89,7 @@ TEST(UrdfChain, IsAThreeFingerGripperThatClosesWithOneValue) {
 
 TEST(UrdfChain, HasClosedMeshesOfItsPrimitives) {
   const TemporaryFolder folder;
-  const KinematicChain chain = read_urdf(folder.write("gripper.urdf", gripper()));
+  const KinematicChain chain = read_urdf(folder.write("gripper.urdf", gripper())).chain;
   const auto volume = [&](const char* link) {
     const geometry::TriangleMesh& mesh = *chain.links()[number_of(chain, link)].mesh;
     EXPECT_TRUE(geometry::report(mesh).is_watertight) << link;
@@ -122,7 +122,7 @@ TEST(UrdfChain, FindsMeshesBesideItselfAndInPackages) {
   for (const std::string& name :
        {std::string("../meshes/arm.obj"), std::string("package://arm_description/meshes/arm.obj"),
         std::string("package://hand_description/hand.obj"), absolute, "file://" + absolute}) {
-    const KinematicChain chain = read_urdf(folder.write("arm_description/urdf/arm.urdf", with_mesh(name)));
+    const KinematicChain chain = read_urdf(folder.write("arm_description/urdf/arm.urdf", with_mesh(name))).chain;
     EXPECT_EQ(chain.links()[0].mesh->triangles.size(), 4U) << name;
   }
 }
@@ -131,9 +131,21 @@ TEST(UrdfChain, ScalesMeshesAndKeepsThemFacingOutward) {
   const TemporaryFolder folder;
   folder.write("t.obj", kTetrahedron);
   for (const char* scale : {"0.1 0.2 0.3", "0.1 -0.2 0.3"}) {
-    const KinematicChain chain = read_urdf(folder.write("a.urdf", with_mesh("t.obj", scale)));
+    const KinematicChain chain = read_urdf(folder.write("a.urdf", with_mesh("t.obj", scale))).chain;
     EXPECT_NEAR(test_support::enclosed_volume(*chain.links()[0].mesh), 0.006 / 6.0, 1e-9) << scale;
   }
+}
+
+TEST(UrdfChain, PassesOnTheWarningsOfItsMeshFilesOnce) {
+  const TemporaryFolder folder;
+  const std::string mesh = folder.write("t.obj", std::string(kTetrahedron) + "f 1 2\n");
+  const std::string twice = "<collision><geometry><mesh filename='t.obj'/></geometry></collision>";
+  const UrdfChain read = read_urdf(folder.write("a.urdf", robot("<link name='a'>" + twice + twice + "</link>")));
+  EXPECT_EQ(read.chain.links()[0].mesh->triangles.size(), 8U);
+  ASSERT_EQ(read.warnings.size(), 1U);
+  EXPECT_EQ(read.warnings[0].find(mesh + ": 1 face has fewer than 3 corners and is left out (line "), 0U);
+  folder.write("t.obj", kTetrahedron);
+  EXPECT_TRUE(read_urdf(folder.path("a.urdf")).warnings.empty());
 }
 
 std::string joint(const std::string& type, const std::string& inside, const std::string& name = "j") {
@@ -145,12 +157,12 @@ const std::string kLimit = "<limit lower='0' upper='1' effort='1' velocity='1'/>
 
 TEST(UrdfChain, TurnsContinuousJointsByHalfATurnEachWayAndFixedOnesNotAtAll) {
   const TemporaryFolder folder;
-  const KinematicChain wheel = read_urdf(folder.write("w.urdf", robot(kTwoLinks + joint("continuous", ""))));
+  const KinematicChain wheel = read_urdf(folder.write("w.urdf", robot(kTwoLinks + joint("continuous", "")))).chain;
   ASSERT_EQ(wheel.values().size(), 1U);
   EXPECT_DOUBLE_EQ(wheel.values()[0].lower, -pi);
   EXPECT_DOUBLE_EQ(wheel.values()[0].upper, pi);
   const KinematicChain plate =
-      read_urdf(folder.write("f.urdf", robot(kTwoLinks + joint("fixed", "<origin xyz='1 2 3'/>"))));
+      read_urdf(folder.write("f.urdf", robot(kTwoLinks + joint("fixed", "<origin xyz='1 2 3'/>")))).chain;
   EXPECT_TRUE(plate.values().empty());
   EXPECT_TRUE(poses_of(plate, {})[1].translation().isApprox(Vector3d(1.0, 2.0, 3.0), 0.0));
   EXPECT_EQ(plate.links()[1].mesh, nullptr);

@@ -58,7 +58,7 @@ int main() {
   std::ofstream("wheel.urdf")
       << "<robot name='r'><link name='a'/><link name='b'/><joint name='wheel' type='continuous'>"
          "<parent link='a'/><child link='b'/></joint></robot>";
-  const grasping::KinematicChain wheel = grasping::read_urdf("wheel.urdf");
+  const grasping::KinematicChain wheel = grasping::read_urdf("wheel.urdf").chain;
   expect(wheel.values().size() == 1, "a chain is read from a URDF file");
   expect(grasping::make_hand().chain.moves(0, 4), "the thumb rolls");
   std::cout << "The installed package works.\n";
