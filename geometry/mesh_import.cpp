@@ -24,7 +24,7 @@ struct Format {
 };
 
 constexpr std::array<Format, 5> kFormats{
-    {{".obj", &read_obj}, {".stl", &read_stl}, {".ply", &read_ply}, {".gltf", &read_gltf}, {".glb", &read_glb}}};
+    {{".obj", &read_obj}, {".stl", &read_stl}, {".ply", &read_ply}, {".gltf", &read_gltf}, {".glb", &read_gltf}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -87,6 +87,7 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   ImportedMesh result;
   result.warnings = std::move(soup.warnings);
   result.polygons_triangulated = soup.polygons_triangulated;
+  result.warnings = std::move(soup.warnings);
   result.mesh = weld(soup.mesh);
   result.degenerate_triangles = drop_degenerate(result.mesh);
   if (result.degenerate_triangles > 0) {

@@ -22,20 +22,21 @@ struct ImportedMesh {
   std::vector<std::string> warnings;
 };
 
-/// Reads all meshes of a file into one mesh. The transforms of the file's scene nodes place each mesh. Vertices at
-/// identical positions are welded, polygons are triangulated, and degenerate triangles are dropped. Normals, texture
-/// coordinates, materials, lines and points are ignored. Coordinates are multiplied by `scale` (metres per unit of the
-/// file). What else is skipped, such as unknown statements and faces of two corners, is in the warnings.
+/// Reads all meshes of a file into one mesh; of a glTF file, those of its default scene, placed and deformed as they
+/// are there. Vertices at identical positions are welded, polygons are triangulated, and degenerate triangles are
+/// dropped. Normals, texture coordinates, materials, lines and points are ignored. Coordinates are multiplied by
+/// `scale` (metres per unit of the file). What else is skipped, such as unknown statements and faces of two corners, is
+/// in the warnings.
 ///
 /// Coordinates are read in double precision: the decimal digits of text, also where a PLY header declares floats, and
-/// the numbers of binary files as they are. Scaling, and the transforms of scene nodes, round once more, to 1e-16.
+/// the numbers of binary files as they are. Scaling, and what glTF does with its points, round further, to about 1e-16.
 ///
 /// Throws std::invalid_argument for a file that is missing, not a regular file, of unknown format, unreadable, empty,
 /// truncated, larger than 16 GiB or otherwise broken, and for text in UTF-16; for coordinates of triangles that are not
 /// finite or beyond ±1e9, before or after scaling; for indices out of range; when all triangles are degenerate; for
-/// surfaces in OBJ that are not polygons; for
-/// compressed or sparse glTF, and glTF whose buffers lie outside its folder; and for a scale that is not positive and
-/// finite. The message is one line that names the file and the faulty line, element or value. May block on the disk.
+/// surfaces in OBJ that are not polygons; for glTF that is only compressed, that requires an unknown extension, or
+/// whose buffers lie outside its folder; and for a scale that is not positive and finite. The message is one line that
+/// names the file and the faulty line, element or value. May block on the disk.
 ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 }  // namespace glissade::geometry

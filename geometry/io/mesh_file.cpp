@@ -31,12 +31,16 @@ std::string MeshFile::beginning(std::uint64_t length) {
   return bytes;
 }
 
-void reject(const std::filesystem::path& path, const std::string& what) {
-  // Names from the file may have any length and content, but the message is one line.
+std::string one_line(const std::string& text) {
   constexpr std::size_t kLongest = 1000;
-  std::string line = what.size() > kLongest ? what.substr(0, kLongest) + " ..." : what;
+  std::string line = text.size() > kLongest ? text.substr(0, kLongest) + " ..." : text;
   std::replace_if(
       line.begin(), line.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; }, '?');
+  return line;
+}
+
+void reject(const std::filesystem::path& path, const std::string& what) {
+  const std::string line = one_line(what);
   throw std::invalid_argument(path.string() + ": " + line + (line.ends_with('.') ? "" : "."));
 }
 

@@ -34,6 +34,9 @@ class MeshFile {
   std::ifstream stream_;
 };
 
+/// The text as one line, shortened and without control characters: names from a file may have any length and content.
+std::string one_line(const std::string& text);
+
 /// Throws std::invalid_argument: `path` and `what` in one line, shortened and without control characters.
 [[noreturn]] void reject(const std::filesystem::path& path, const std::string& what);
 

@@ -38,8 +38,7 @@ inline std::optional<double> bad_coordinate(const Eigen::Vector3d& vertex) {
 TriangleSoup read_obj(MeshFile& file);
 TriangleSoup read_stl(MeshFile& file);
 TriangleSoup read_ply(MeshFile& file);
-/// Buffers in separate files are read too.
+/// glTF as JSON or in a GLB container, whatever the name of the file says. Buffers in separate files are read too.
 TriangleSoup read_gltf(MeshFile& file);
-TriangleSoup read_glb(MeshFile& file);
 
 }  // namespace glissade::geometry

@@ -3,6 +3,7 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/triangle_mesh.h>
 
+#include "gltf_writer.h"
 #include "mesh_files.h"
 #include "mesh_seeds.h"
 
@@ -13,42 +14,13 @@ using geometry::bytes_of;
 using geometry::TriangleMesh;
 using nlohmann::json;
 
-std::string base64(const std::string& bytes) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t bits = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      bits = bits << 8U | (i + k < bytes.size() ? static_cast<unsigned char>(bytes[i + k]) : 0U);
-    }
-    for (unsigned k = 0; k < 4; ++k) {
-      text += i + k <= bytes.size() ? digits[(bits >> (18 - 6 * k)) & 63U] : '=';
-    }
-  }
-  return text;
-}
-
 /// A document that grows mesh by mesh.
-class Document {
+class Document : public geometry::GltfWriter {
  public:
   Document() {
-    json_["asset"] = {{"version", "2.0"}, {"generator", "Tür"}};
-    json_["extensionsRequired"] = {"KHR_materials_unlit"};
-    json_["scenes"] = {{{"nodes", {0}}}};
-    json_["nodes"] = json::array();
-  }
-
-  /// Adds the accessor of `bytes`, which are `count` elements; `stride` is 0 where they follow each other closely.
-  std::size_t add_accessor(const std::string& bytes, int component, const char* type, std::size_t count, int stride) {
-    json view{{"buffer", 0}, {"byteOffset", binary_.size()}, {"byteLength", bytes.size()}};
-    if (stride > 0) view["byteStride"] = stride;
-    json_["bufferViews"].push_back(view);
-    json_["accessors"].push_back({{"bufferView", json_["bufferViews"].size() - 1},
-                                  {"componentType", component},
-                                  {"count", count},
-                                  {"type", type}});
-    binary_ += bytes + std::string((4 - bytes.size() % 4) % 4, '\0');
-    return json_["accessors"].size() - 1;
+    root["asset"]["generator"] = "Tür";
+    root["extensionsRequired"] = {"KHR_materials_unlit"};
+    root["scenes"] = {{{"nodes", {0}}}};
   }
 
   std::size_t add_positions(const geometry::TriangleMesh& mesh, bool with_gaps) {
@@ -75,7 +47,7 @@ class Document {
 
   /// Positions in thousandths, as 16-bit integers with a gap.
   std::size_t add_quantized_positions(const geometry::TriangleMesh& mesh) {
-    json_["extensionsRequired"].push_back("KHR_mesh_quantization");
+    root["extensionsRequired"].push_back("KHR_mesh_quantization");
     std::string bytes;
     for (const Eigen::Vector3d& p : mesh.vertices) {
       for (const double coordinate : p) {
@@ -85,23 +57,6 @@ class Document {
     }
     return add_accessor(bytes, 5122, "VEC3", mesh.vertices.size(), 8);
   }
-
-  void add_mesh(const json& primitives) { json_["meshes"].push_back({{"name", "扉"}, {"primitives", primitives}}); }
-  void add_node(const json& node) { json_["nodes"].push_back(node); }
-
-  std::string gltf() const { return with_buffer("data:application/octet-stream;base64," + base64(binary_)).dump(); }
-  std::string glb() const { return geometry::glb(with_buffer("").dump(), binary_); }
-
- private:
-  json with_buffer(const std::string& uri) const {
-    json result = json_;
-    result["buffers"] = {{{"byteLength", binary_.size()}}};
-    if (!uri.empty()) result["buffers"][0]["uri"] = uri;
-    return result;
-  }
-
-  json json_;
-  std::string binary_;
 };
 
 /// Two meshes with indices of different sizes, placed three times by matrices, turns and scales.
@@ -148,6 +103,46 @@ Document quantized() {
   return document;
 }
 
+/// A plate of which a sparse target lifts a corner, bent by two joints, and copies of a box.
+Document deformed() {
+  const geometry::TriangleMesh plate = geometry::make_plate({1.0, 2.0}, 8);
+  const std::size_t points = plate.vertices.size();
+  Document document;
+  const std::size_t target = document.add_zeros(5126, "VEC3", points);
+  document.root["accessors"][target]["sparse"] = {
+      {"count", 1},
+      {"indices", {{"bufferView", document.add_view(bytes_of<std::uint8_t>({0}))}, {"componentType", 5121}}},
+      {"values", {{"bufferView", document.add_view(bytes_of<float>({0, 0, 1}))}}}};
+  std::string joints;
+  std::string weights;
+  for (std::size_t i = 0; i < points; ++i) {
+    joints += bytes_of<std::uint8_t>({0, 1, 0, 0});
+    weights += bytes_of<std::uint8_t>({51, 204, 0, 0});
+  }
+  const std::size_t bind = document.add_accessor(bytes_of<float>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, -5, 1,
+                                                                  1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0,  1}),
+                                                 5126, "MAT4", 2);
+  document.add_mesh({{{"attributes",
+                       {{"POSITION", document.add_positions(plate, false)},
+                        {"JOINTS_0", document.add_accessor(joints, 5121, "VEC4", points)},
+                        {"WEIGHTS_0", document.add_accessor(weights, 5121, "VEC4", points)}}},
+                      {"indices", document.add_indices<std::uint16_t>(plate, 5123)},
+                      {"targets", {{{"POSITION", target}}}}}});
+  document.root["skins"] = {{{"joints", {1, 2}}, {"inverseBindMatrices", bind}, {"skeleton", 1}}};
+  const geometry::TriangleMesh box = geometry::make_box({0.1, 0.2, 0.3}, 12);
+  document.add_mesh({{{"attributes", {{"POSITION", document.add_positions(box, false)}}},
+                      {"indices", document.add_indices<std::uint8_t>(box, 5121)}}});
+  const json copies{
+      {"TRANSLATION", document.add_accessor(bytes_of<float>({0, 0, 3, 0, 0, 4}), 5126, "VEC3", 2)},
+      {"ROTATION", document.add_accessor(bytes_of<std::int16_t>({0, 0, 0, 32767, 32767, 0, 0, 0}), 5122, "VEC4", 2)},
+      {"SCALE", document.add_accessor(bytes_of<float>({1, 1, 1, 1, 1, -1}), 5126, "VEC3", 2)}};
+  document.add_node({{"mesh", 0}, {"skin", 0}, {"weights", {0.5}}, {"children", {1, 3}}, {"scale", {2, 2, 2}}});
+  document.add_node({{"children", {2}}, {"translation", {0, 0, 5}}});
+  document.add_node({{"rotation", {0, 0, 0.6, 0.8}}});
+  document.add_node({{"mesh", 1}, {"extensions", {{"EXT_mesh_gpu_instancing", {{"attributes", copies}}}}}});
+  return document;
+}
+
 }  // namespace
 
 std::string mesh_buffer() {
@@ -159,12 +154,14 @@ std::vector<Seed> gltf_seeds(bool is_glb) {
     return {{"tetrahedron.glb", geometry::tetrahedron_glb()},
             {"assembly.glb", assembly().glb()},
             {"strips.glb", strips().glb()},
-            {"quantized.glb", quantized().glb()}};
+            {"quantized.glb", quantized().glb()},
+            {"deformed.glb", deformed().glb()}};
   }
   return {{"tetrahedron.gltf", geometry::gltf(R"({"byteLength":72,"uri":"%64ata.bin"})")},
           {"assembly.gltf", assembly().gltf()},
           {"strips.gltf", strips().gltf()},
-          {"quantized.gltf", quantized().gltf()}};
+          {"quantized.gltf", quantized().gltf()},
+          {"deformed.gltf", deformed().gltf()}};
 }
 
 }  // namespace glissade::fuzz
