@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
@@ -43,7 +43,7 @@ void add_strict_option(CLI::App& command) {
 }
 
 geometry::ImportedMesh import_with_warnings(const std::string& path, double scale) {
-  note_input(path);
+  check_input(path);
   geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
   for (const std::string& sentence : imported.warnings)
     warn_or_refuse(path + ": " + sentence);

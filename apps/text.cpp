@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <system_error>
 
-#include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -74,25 +74,15 @@ std::string one_line(std::string_view text) {
 }
 
 std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes) {
-  if (path.empty()) throw std::invalid_argument("the name of a file is empty");
-  // A folder opens like a file and fails only later, with a less helpful reason. A pipe or a device may never end.
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-  if (status.type() == std::filesystem::file_type::not_found) {
-    throw std::invalid_argument(path + ": there is no such file");
-  }
-  if (std::filesystem::is_directory(status)) throw std::invalid_argument(path + ": is a folder, not a file");
-  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
-    throw std::invalid_argument(path + ": is not a regular file");
-  }
+  check_input(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path + ": " + std::generic_category().message(errno));
+  std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(path, ignored);
   if (size > max_bytes) {
     throw std::invalid_argument(path + ": has " + std::to_string(size) + " bytes; at most " +
                                 std::to_string(max_bytes) + " are read");
   }
-  note_input(path);
   return file;
 }
 

@@ -2,6 +2,7 @@
 #include <bit>
 #include <filesystem>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <glissade/base/byte_order.h>
@@ -12,15 +13,14 @@ namespace glissade::devices {
 namespace {
 
 // An event: sync word, number, time, lengths of channel and message, channel, message; all numbers big-endian.
-constexpr std::uint32_t kSync = 0xEDA1DA01;
+constexpr std::string_view kSync = "\xED\xA1\xDA\x01";
 constexpr std::size_t kHeaderBytes = 28;
 constexpr std::int32_t kLongestChannel = 63;         // LCM_MAX_CHANNEL_NAME_LENGTH
 constexpr std::int32_t kLongestMessage = 256 << 20;  // bytes
 constexpr std::size_t kBufferBytes = 256 << 10;      // an event has some hundreds or thousands
 
+/// Without the number: joined logs count from the beginning more than once, and logs with gaps are logs too.
 struct Header {
-  std::uint32_t sync;
-  std::int64_t number;
   std::int64_t time_us;
   std::int32_t channel_bytes;
   std::int32_t message_bytes;
@@ -28,13 +28,19 @@ struct Header {
 
 Header header_of(std::string_view bytes) {
   const auto order = std::endian::big;
-  return {base::number_at<std::uint32_t>(bytes, 0, order), base::number_at<std::int64_t>(bytes, 4, order),
-          base::number_at<std::int64_t>(bytes, 12, order), base::number_at<std::int32_t>(bytes, 20, order),
+  return {base::number_at<std::int64_t>(bytes, 12, order), base::number_at<std::int32_t>(bytes, 20, order),
           base::number_at<std::int32_t>(bytes, 24, order)};
 }
 
-bool is_printable(char c) {
-  return c > ' ' && c < '\x7f';
+/// Whether another event begins within this one, whose last bytes may follow it.
+bool holds_sync(const LogEvent& event, std::string_view following) {
+  std::string bytes = event.channel;
+  bytes.append(event.message.begin(), event.message.end());
+  return bytes.append(following).find(kSync) != std::string::npos;
+}
+
+bool is_control(char c) {
+  return (c >= '\0' && c < ' ') || c == '\x7f';
 }
 
 }  // namespace
@@ -47,7 +53,7 @@ void EventLogWriter::write(const LogEvent& event) {
   std::string bytes;
   bytes.reserve(kHeaderBytes + event.channel.size() + event.message.size());
   const auto order = std::endian::big;
-  base::append_number(bytes, kSync, order);
+  bytes += kSync;
   base::append_number(bytes, written_++, order);
   base::append_number(bytes, static_cast<std::int64_t>(event.time.count()), order);
   base::append_number(bytes, static_cast<std::int32_t>(event.channel.size()), order);
@@ -63,29 +69,27 @@ void EventLogWriter::close() {
 }
 
 EventLogReader::EventLogReader(const std::string& path) : path_(path), buffer_(kBufferBytes) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (status.type() == std::filesystem::file_type::not_found)
+    throw std::invalid_argument(path + ": there is no such file");
+  if (!std::filesystem::exists(status)) throw std::invalid_argument(path + ": " + error.message());
+  if (std::filesystem::is_directory(status)) throw std::invalid_argument(path + ": is a folder, not an event log");
+  if (!std::filesystem::is_regular_file(status)) throw std::invalid_argument(path + ": is not a regular file");
   file_.rdbuf()->pubsetbuf(buffer_.data(), static_cast<std::streamsize>(buffer_.size()));
   file_.open(path, std::ios::binary);
-  std::error_code error;
-  if (!std::filesystem::exists(path, error)) throw std::invalid_argument(path + ": there is no such file");
-  if (std::filesystem::is_directory(path, error)) throw std::invalid_argument(path + ": is a folder, not an event log");
   if (!file_) throw std::invalid_argument(path + ": cannot be read");
   size_ = static_cast<std::int64_t>(std::filesystem::file_size(path, error));
-  std::string sync;
-  if (error || !read(sizeof kSync, sync) || base::number_at<std::uint32_t>(sync, 0, std::endian::big) != kSync) {
+  if (error || !read(kSync.size(), ahead_) || ahead_ != kSync)
     throw std::invalid_argument(path + ": is no LCM event log");
-  }
-  file_.seekg(0);
 }
 
 std::optional<LogEvent> EventLogReader::next() {
   if (!damage_.empty() || offset_ == size_) return std::nullopt;
-  std::string bytes;
-  if (!read(kHeaderBytes, bytes)) return damaged(offset_, "the file ends within an event");
-  const Header header = header_of(bytes);
-  if (header.sync != kSync) return damaged(offset_, "no event begins here");
-  if (!first_number_) first_number_ = header.number;
-  if (header.number != *first_number_ + count_)
-    return damaged(offset_ + 4, "the numbers of the events do not rise by 1");
+  if (ahead_ != kSync.substr(0, ahead_.size())) return damaged(offset_, "no event begins here");
+  std::string rest;
+  if (!read(kHeaderBytes - kSync.size(), rest)) return damaged(offset_, "the file ends within an event");
+  const Header header = header_of(ahead_ + rest);
   if (header.channel_bytes < 1 || header.channel_bytes > kLongestChannel) {
     return damaged(offset_ + 20, "a channel's name cannot have " + std::to_string(header.channel_bytes) + " bytes");
   }
@@ -98,13 +102,16 @@ std::optional<LogEvent> EventLogReader::next() {
   LogEvent event;
   event.time = std::chrono::microseconds(header.time_us);
   if (!read(static_cast<std::size_t>(header.channel_bytes), event.channel) ||
-      !std::all_of(event.channel.begin(), event.channel.end(), is_printable)) {
-    return damaged(offset_ + static_cast<std::int64_t>(kHeaderBytes),
-                   "a channel's name has other characters than a word");
+      std::any_of(event.channel.begin(), event.channel.end(), is_control)) {
+    return damaged(offset_ + static_cast<std::int64_t>(kHeaderBytes), "a channel's name has control characters");
   }
   event.message.resize(static_cast<std::size_t>(header.message_bytes));
   if (!file_.read(reinterpret_cast<char*>(event.message.data()), header.message_bytes))
     return damaged(offset_, "the file cannot be read on");
+  read(kSync.size(), ahead_);
+  const bool has_more = header.message_bytes < left;
+  if (has_more && ahead_ != kSync && holds_sync(event, ahead_))
+    return damaged(offset_, "the event is cut short by another one");
   offset_ += static_cast<std::int64_t>(kHeaderBytes) + header.channel_bytes + header.message_bytes;
   ++count_;
   return event;
@@ -112,7 +119,9 @@ std::optional<LogEvent> EventLogReader::next() {
 
 bool EventLogReader::read(std::size_t size, std::string& bytes) {
   bytes.resize(size);
-  return static_cast<bool>(file_.read(bytes.data(), static_cast<std::streamsize>(size)));
+  file_.read(bytes.data(), static_cast<std::streamsize>(size));
+  bytes.resize(static_cast<std::size_t>(file_.gcount()));
+  return bytes.size() == size;
 }
 
 std::optional<LogEvent> EventLogReader::damaged(std::int64_t offset, const std::string& what) {

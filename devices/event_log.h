@@ -42,7 +42,8 @@ class EventLogWriter {
   std::int64_t written_ = 0;
 };
 
-/// Reads a log from the beginning to the end, or up to the first damage: the bytes of a file may be anything. Not
+/// Reads a log from the beginning to the end, or up to the first damage: the bytes of a file may be anything. Logs that
+/// were joined, and logs from which events were taken out, are whole: the numbers of events are not looked at. Not
 /// thread-safe.
 class EventLogReader {
  public:
@@ -68,7 +69,7 @@ class EventLogReader {
   std::int64_t size_ = 0;
   std::int64_t offset_ = 0;  ///< of the next event
   std::int64_t count_ = 0;
-  std::optional<std::int64_t> first_number_;  ///< of the events, as the file numbers them
+  std::string ahead_;  ///< the first bytes of the next event, which show where the last one ends
   std::string damage_;
 };
 

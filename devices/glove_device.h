@@ -6,6 +6,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -137,11 +138,14 @@ struct GloveState {
   std::chrono::nanoseconds command_age{0};
   std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` there
   double energy = 0.0;                     ///< `SafeCommand::energy` of that command, J
+  /// `SafeCommand::taken` of that command, J; none for a glove in the same process.
+  std::optional<double> taken{};
 };
 
 /// Forces (N) and torques (Nm) that somebody asks of the glove. All are zero by default. No device takes a command of
 /// this type: `SafetyEnvelope` makes a `SafeCommand` of it.
 struct GloveCommand {
+  std::int64_t session = 0;                         ///< of the sender, as its receiver knows it; 0 in one process
   std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
   std::int64_t state_sequence = 0;                  ///< `GloveState::sequence` of the state that the command answers
   std::chrono::nanoseconds state_time{0};           ///< `GloveState::time` of this state, on the glove's clock
@@ -150,8 +154,9 @@ struct GloveCommand {
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   JointValues joint_torques{};                      ///< positive toward larger joint angles
   /// J, so far: the energy that bodies which move without this hand, such as a part in another hand, have given to it,
-  /// less what they took; and the hand's work against force that is withheld. The envelope lets force and torque give
-  /// the hand so much more.
+  /// less what they ask of it; and the hand's work against force that was withheld. Where it rises, the envelope lets
+  /// force and torque give the hand so much more. Where it falls, the hand gives up what it can spare
+  /// (`GloveState::taken`).
   double supply = 0.0;
 };
 

@@ -27,6 +27,7 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
       state.command_age = std::chrono::nanoseconds(0);
       state.link_delay = std::chrono::nanoseconds(0);
       state.energy = 0.0;
+      state.taken = 0.0;
     }
     states_.publish(state);
   });

@@ -15,6 +15,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
@@ -40,10 +41,12 @@ class GloveSearch {
   /// The newest announcement of the glove with this number. Waits for the first one; no value if none came within
   /// `timeout`.
   std::optional<GloveInfo> wait_for(std::int64_t device, std::chrono::milliseconds timeout);
+  /// The numbers of all gloves that were heard so far, in rising order.
+  std::vector<std::int64_t> heard() const;
 
  private:
   std::shared_ptr<LcmBus> bus_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::condition_variable has_come_;
   std::map<std::int64_t, GloveInfo> found_;
   std::unique_ptr<LcmBus::Subscription> subscription_;

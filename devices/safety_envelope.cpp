@@ -72,7 +72,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   }
   if (is_finite(wanted)) {
     wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
-    take_supply(wanted, dt);
+    take_supply(wanted, reasons.is_fading(), dt);
   }
   const double change = reasons.is_fading() ? -dt / (kFadePeriods * in_seconds(period_)) : dt / kReturn_s;
   gain_ = std::clamp(gain_ + change, 0.0, 1.0);
@@ -97,12 +97,15 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   if (reasons.is_fading() && is_zero) gain_ = 0.0;
   mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
   last_ = forces;
+  observe_share(forces);
   f_sum_ += forces.f;
   t_sum_ += forces.t;
   ++summed_;
 
   safe.energy_ = energy_;
+  safe.taken_ = taken_;
   safe.values_ = wanted;
+  safe.values_.supply = supply_;
   safe.values_.f_H_W = forces.f;
   safe.values_.t_H_W = forces.t;
   safe.values_.joint_torques = forces.joints;

@@ -27,6 +27,8 @@ class SafeCommand {
   std::chrono::nanoseconds age() const noexcept { return age_; }
   /// Energy (J) that force and torque may still give to the hand: `SafetyEnvelope`.
   double energy() const noexcept { return energy_; }
+  /// Energy (J) that the hand has given up for others since the last interruption: `GloveState::taken`.
+  double taken() const noexcept { return taken_; }
 
  private:
   friend class SafetyEnvelope;
@@ -35,6 +37,7 @@ class SafeCommand {
   LimitReasons reasons_;
   std::chrono::nanoseconds age_{0};
   double energy_ = 0.0;
+  double taken_ = 0.0;
 };
 
 /// The most serious reason in plain words, such as "no force: the glove's state is 14 ms old"; empty without reasons.
@@ -51,20 +54,23 @@ std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 ///
 /// A passivity observer counts the work of force and torque on the hand, by the measured motion and the command that
 /// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.25 m times the
-/// largest force, and 0.1 J at the start for errors of sampling. Below 0.1 J the wrench shrinks smoothly with the
-/// energy, to a fifth; what this would still give too much within ten periods is cut. When there is no force any more,
-/// the energy is at most 0.1 J, and recovers by 0.1 W; while the force returns from an interruption and up to half a
-/// second after, it is at least 0.1 J. In a calm contact, in which less than 10 mJ went to and fro in about the last
-/// half second, it recovers to 0.1 J by up to 0.1 W, so that a force that was reduced comes back before the contact
-/// ends. Returns and calm contacts together take at most 1 J and 0.1 W. For a glove that tells the delay of its link,
-/// the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an oscillation
-/// that gives more than 17 mW, and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and
-/// Ryu, Time-domain passivity control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral
-/// telemanipulation with time delays: a two-layer approach combining passivity and transparency, 2011, for the
-/// shrinking with the energy in a tank.
+/// largest force, and 0.1 J at the start for errors of sampling. The wrench is a continuous function of the energy and
+/// the velocity: below 0.1 J it shrinks smoothly, and it is never greater than what is left could bring to zero as a
+/// spring does (docs/safety.md has the derivation). When there is no force any more, the energy is at most 0.1 J. Below
+/// 0.1 J it recovers: without a force by 0.1 W; in a calm contact, in which less than 10 mJ went to and fro in about
+/// the last half second, by up to 0.2 W; at once while the force returns from an interruption and up to half a second
+/// after. All this together is at most 1 J and 0.1 W. For a glove that tells the delay of its link, the envelope at the
+/// glove's end does this alone. So no delay and no error of the simulation can feed an oscillation that gives more than
+/// 18 mW, and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain
+/// passivity control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time
+/// delays: a two-layer approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank
+/// and for tanks that pass energy on.
 ///
-/// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that: it counts as if the hand
-/// had put it in, by at most the largest power.
+/// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that. Where it rises, the
+/// rise counts as if the hand had put it in, in the share of the wanted wrench that was exerted, by at most the largest
+/// power. Where it falls, others ask for energy: the hand gives up what it has beyond 0.1 J, so that no force shrinks
+/// for that; what it does not have is forgotten within some seconds. `SafeCommand::taken` tells what it gave up. After
+/// an interruption and from another sender, supply and taken count anew.
 ///
 /// A link that delays every command alike, by up to 150 ms for the whole round trip, does not make commands old: their
 /// age is then counted from the delay that all commands of the last half second or more had (`link_delay`).
@@ -121,7 +127,9 @@ class SafetyEnvelope {
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
   void observe_work(const GloveState& state) noexcept;
-  void take_supply(const GloveCommand& wanted, double dt) noexcept;
+  void book(double change) noexcept;
+  void take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept;
+  void observe_share(const Forces& exerted) noexcept;
   double most_energy() const noexcept;
   void settle_energy(bool has_force, std::chrono::nanoseconds now, double dt) noexcept;
   void observe_delay(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept;
@@ -145,10 +153,16 @@ class SafetyEnvelope {
   std::chrono::nanoseconds last_call_{0};
 
   double energy_;
-  double supply_ = 0.0;               // J, of `GloveCommand::supply`, as far as it is taken
-  std::int64_t supply_sequence_ = 0;  // of the command that told it
-  double refill_;                     // J, for the return from interruptions and in calm contacts
-  double stirred_ = 0.0;              // J, that went to and fro in about the last half second
+  std::optional<double> told_supply_;  // by the last command; none after an interruption
+  std::int64_t told_sequence_ = 0;     // of that command
+  std::int64_t told_session_ = 0;
+  double supply_ = 0.0;   // J, passed on with the command
+  double owed_ = 0.0;     // J, for which others asked, and which the hand did not have
+  double taken_ = 0.0;    // J, that it gave up
+  double exerted_ = 0.0;  // share of the wanted wrench in the last command
+  double refill_;         // J, for all that recovers
+  double came_ = 0.0;     // J, in about the last half second
+  double went_ = 0.0;
   double energy_scale_ = 1.0;
   std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and the refill pays for its work
   Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state

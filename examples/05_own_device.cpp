@@ -46,11 +46,7 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: own_device PART.stl, in millimetres\n";
     return 2;
   }
-  const geometry::ImportedMesh imported = geometry::import_mesh(argv[1], 1e-3);
-  for (const std::string& warning : imported.warnings)
-    std::cerr << "warning: " << argv[1] << ": " << warning << '\n';
-  const auto mesh = std::make_shared<geometry::TriangleMesh>(imported.mesh);
-  const auto part_V = std::make_shared<haptics::SlidingPart>(mesh);
+  const auto part_V = haptics::load_part(argv[1], 1e-3);
   const auto block = std::make_shared<haptics::ContactBody>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.02}, 300)));
 

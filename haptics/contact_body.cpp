@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include <glissade/geometry/mesh_import.h>
 #include <glissade/haptics/contact_body.h>
 
 #include "certificate/obb_tree.h"
@@ -12,6 +13,10 @@ const std::shared_ptr<const geometry::TriangleMesh>& checked(
     const std::shared_ptr<const geometry::TriangleMesh>& mesh) {
   if (mesh == nullptr) throw std::invalid_argument("a body in contact needs a mesh, not a null pointer");
   return mesh;
+}
+
+std::shared_ptr<const geometry::TriangleMesh> mesh_of(const std::filesystem::path& file, double scale) {
+  return std::make_shared<const geometry::TriangleMesh>(geometry::import_mesh(file, scale).mesh);
 }
 
 bool owns_corner(const geometry::MeshTopology& topology, std::int32_t triangle) {
@@ -41,6 +46,14 @@ SlidingPart::SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& me
   }
   for (const Eigen::Vector3d& vertex : tree.mesh().vertices)
     radius_ = std::max(radius_, (vertex - p_Vref).norm());
+}
+
+std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale) {
+  return std::make_shared<const ContactBody>(mesh_of(file, scale));
+}
+
+std::shared_ptr<const SlidingPart> load_part(const std::filesystem::path& file, double scale) {
+  return std::make_shared<const SlidingPart>(mesh_of(file, scale));
 }
 
 }  // namespace glissade::haptics

@@ -2,6 +2,7 @@
 
 /// A mesh prepared for sliding contact: as a part, i.e. an object that a hand or a script moves, or as an obstacle.
 
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -67,6 +68,13 @@ class SlidingPart : public ContactBody {
   bool has_chosen_point_;
   double radius_;
 };
+
+/// The bodies of mesh files (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. Triangles
+/// without area are left out, and so is what `geometry::import_mesh` warns of; only that function tells of it. Throw
+/// std::invalid_argument, naming the file, as `geometry::import_mesh` does.
+std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale = 1.0);
+/// The same for a part, whose compliance point is the centre of its bounding box.
+std::shared_ptr<const SlidingPart> load_part(const std::filesystem::path& file, double scale = 1.0);
 
 /// A body that stands still. Several obstacles may share one `ContactBody`.
 struct Obstacle {

@@ -10,6 +10,7 @@
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
 #include "loop/fingers_of_hand.h"
+#include "loop/hand_ledger.h"
 #include "loop/holds.h"
 #include "loop/usable_set.h"
 
@@ -65,17 +66,23 @@ struct HapticKernel::Hand {
   int told_states = 0;
   std::int64_t told_sequence = -1;
   std::int64_t sequence = 0;
-  double supply = 0.0;  // J, of the commands
-  double owed = 0.0;    // J: work of the hand against force that was withheld, as far as it has not been lifted again
-  Wrench solved;        // of the contacts when they last had a solution
+  double owed = 0.0;   // J: work of the hand against force that was withheld, as far as it has not been lifted again
+  double lifts = 1.0;  // J, for which the hand may be lifted; many interruptions use it up
+  double taken = 0.0;  // `SafeCommand::taken` of the last command
+  Wrench pull;         // of other hands in the last command
+  Wrench solved;       // of the contacts when they last had a solution
   std::optional<FingersOfHand> fingers;
 
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
   /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
-  double lift(double against_withheld, double against_exerted) noexcept {
+  double lift(double against_withheld, double against_exerted, double dt) noexcept {
+    constexpr double kMostLifts_J = 1.0;
+    constexpr double kRecovery_W = 0.1;
     owed = std::max(0.0, owed + against_withheld);
-    const double lifted = std::clamp(-against_exerted, 0.0, owed);
+    lifts = std::min(kMostLifts_J, lifts + kRecovery_W * dt);
+    const double lifted = std::clamp(-against_exerted, 0.0, std::min(owed, lifts));
     owed -= lifted;
+    lifts -= lifted;
     return lifted;
   }
 
@@ -120,6 +127,7 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
                                     .fingers = std::move(fingers)}));
   }
   contacts_ = std::make_unique<ContactProjection>(parts_.size());
+  ledger_ = std::make_unique<HandLedger>();
   holds_ = std::make_unique<Holds>(parts_.size(), std::move(stiffness));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     if (!hands[h].part) continue;
@@ -206,6 +214,7 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   holds_->update({poses.data(), hands_.size()}, set, dt);
   const std::chrono::nanoseconds age = set.sequence == 0 ? std::chrono::nanoseconds(0) : now - set.time;
   contacts_->update(set, age, holds_->led(), dt);
+  ledger_->begin_tick(dt);
 
   HapticTick tick;
   tick.ghosts.time = now;
@@ -286,6 +295,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   if (tick.part != hand.last_part || p_Vref != hand.p_Vref) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
     hand.owed = 0.0;
+    hand.pull = {};
     hand.solved = {};
   }
   hand.last_part = tick.part;
@@ -307,8 +317,6 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   tick.contacts = scaled(hand.contacts.update(contacts, age, motion, dt), softness);
   tick.contact_share = hand.contacts.share();
   tick.is_unsolved = contacts.is_unsolved;
-  hand.supply += holds_->supply_of_pull(number, tick.pull);
-  hand.supply += share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number) * contacts.supply;
   if (!contacts.is_unsolved) {
     hand.solved = {tick.contacts.f + softness * hand.contacts.withheld().f,
                    tick.contacts.t + softness * hand.contacts.withheld().t};
@@ -319,14 +327,19 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const double against_withheld = contacts.is_unsolved
                                       ? holds_->work_against(number, hand.solved) - against_exerted
                                       : holds_->work_against(number, scaled(hand.contacts.withheld(), softness));
-  hand.supply += hand.lift(against_withheld, against_exerted);
+  const double share = share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number);
+  // The pull of the last tick acted on this way.
+  const double of_pull = -holds_->work_against(number, std::exchange(hand.pull, tick.pull));
+  const double lifted = hand.lift(against_withheld, against_exerted, dt);
 
   devices::GloveCommand command;
   command.sequence = ++hand.sequence;
   command.state_sequence = state.sequence;
   command.state_time = state.time;
   command.time = now;
-  command.supply = hand.supply;
+  ledger_->collect(number, state.taken.value_or(hand.taken));
+  command.supply = ledger_->book(number, {.from_hands = of_pull + share * contacts.from_hands,
+                                          .from_elsewhere = lifted + share * contacts.from_movers});
   if (is_finite) {
     const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
     const Wrench damping = damper_wrench(hand.present.damping, tick.contacts, ghost);
@@ -341,6 +354,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   }
   tick.command = hand.envelope.limit(command, state, now);
   hand.is_fading = tick.command.reasons().is_fading();
+  hand.taken = tick.command.taken();
   return tick;
 }
 

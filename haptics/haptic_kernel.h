@@ -24,6 +24,7 @@ namespace glissade::haptics {
 
 class ContactProjection;
 class MultiPartSliding;
+class HandLedger;
 class Holds;
 
 /// What the kernel knows of a part.
@@ -130,6 +131,7 @@ class HapticKernel {
   ContactSet last_poses_;  // of the parts; without rows
   std::unique_ptr<Holds> holds_;
   std::unique_ptr<ContactProjection> contacts_;
+  std::unique_ptr<HandLedger> ledger_;
   std::optional<std::chrono::nanoseconds> last_tick_;
 };
 

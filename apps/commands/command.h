@@ -15,6 +15,9 @@ namespace glissade::apps {
 /// anything else for a failure while running (exit code 1).
 using Command = std::function<int()>;
 
+/// Of --overwrite, which the commands have that record a run.
+inline constexpr const char* kOverwriteHelp = "The recording may take the place of an older file";
+
 /// `glissade info MESH [--json]`
 void add_info_command(CLI::App& app, Command& chosen);
 

@@ -11,7 +11,9 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/scene_warnings.h>
+#include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/durations.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/open_files.h>
@@ -74,6 +76,7 @@ struct DemoOptions {
   std::string lcm_url = "memq://";
   std::string report;
   std::string record;
+  bool overwrites = false;
   std::optional<std::uint16_t> view_port;
   SlidingChoice choice;
 };
@@ -90,6 +93,16 @@ struct Demo {
   HandScript script;
 };
 
+Eigen::AlignedBox3d positions_of(const geometry::PoseTrajectory& trajectory) {
+  constexpr int kMoments = 200;
+  Eigen::AlignedBox3d positions;
+  for (int i = 0; i <= kMoments; ++i) {
+    const std::chrono::nanoseconds time = trajectory.first_time() + i * trajectory.duration() / kMoments;
+    positions.extend(Eigen::Vector3d(trajectory.pose_at(time).translation()));
+  }
+  return positions;
+}
+
 Demo demo_of(const std::string& path, bool fingers) {
   const Demonstration demonstration = fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
   const Scene scene = read_or_embedded_scene(path, demonstration);
@@ -98,13 +111,16 @@ Demo demo_of(const std::string& path, bool fingers) {
   }
   HapticScene haptic_scene = make_haptic_scene(scene, movable_objects(scene));
   warn_of_scene(scene, haptic_scene);
-  return {std::move(haptic_scene),
-          path.empty() ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
-                       : read_hand_script(*scene.script_path)};
+  HandScript script = path.empty()
+                          ? parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration))
+                          : read_hand_script(*scene.script_path);
+  if (const std::string doubt = doubt_of_positions(positions_of(script.X_WH), haptic_scene); !doubt.empty())
+    warn(scene.script_path.value_or(scene.source) + ": " + doubt);
+  return {std::move(haptic_scene), std::move(script)};
 }
 
 RecordSettings record_of(const DemoOptions& options) {
-  return {.log = options.record, .scene_file = options.scene};
+  return {.log = options.record, .overwrites = options.overwrites, .scene_file = options.scene};
 }
 
 Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
@@ -144,6 +160,7 @@ int run(const DemoOptions& options) {
   const std::int64_t ticks = checked_ticks(options.seconds);
   const Demo demo = demo_of(options.scene, options.fingers);
   const HandScript script = demo.script.time_scaled(std::chrono::milliseconds(ticks));
+  check_distinct({{"--record", options.record}, {"--report", report_page(options.report)}});
   if (!options.report.empty()) prepare_report_folder(options.report);
   const Session session = options.offline
                               ? run_session_offline(demo.scene, script, ticks, options.choice, record_of(options))
@@ -165,7 +182,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_option("--seconds", options->seconds, "Duration of the script in seconds")->capture_default_str();
   command->add_option("--scene", options->scene, "Scene file (YAML) with a movable object and a script");
   command
-      ->add_flag("--fingers", options->fingers, "Without --scene: the hand grasps a motor with its fingers, see above")
+      ->add_flag("--fingers", options->fingers, "Without --scene: the hand grasps a motor with its fingers, see below")
       ->excludes("--scene");
   add_sliding_options(*command, options->choice);
   CLI::Option* offline =
@@ -175,7 +192,9 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
       ->capture_default_str()
       ->excludes(offline);
-  command->add_option("--record", options->record, "File for a recording, which 'glissade replay' repeats to the bit");
+  CLI::Option* record = command->add_option("--record", options->record,
+                                            "File for a recording, which 'glissade replay' repeats to the bit");
+  command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);
   add_view_option(*command, options->view_port)->excludes(offline);
   command
       ->add_option(

@@ -1,4 +1,3 @@
-#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -12,6 +11,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/example_files.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -28,6 +28,16 @@ constexpr const char* kExampleFooter =
     "  glissade example\n"
     "  glissade example first_steps && cd first_steps && glissade info motor.obj";
 
+bool is_there(const std::string& path) {
+  return std::filesystem::exists(path);
+}
+
+void write_example(const std::string& path, const std::string& text) {
+  std::ofstream out = open_output(path);
+  out << text << std::flush;
+  if (!out) throw std::runtime_error(path + ": not everything could be written");
+}
+
 int write_examples(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -35,16 +45,13 @@ int write_examples(const std::string& folder) {
   const std::vector<ExampleFile> files = example_files();
   const auto path_of = [&](const ExampleFile& file) { return (std::filesystem::path(folder) / file.name).string(); };
   for (const ExampleFile& file : files) {
-    if (std::filesystem::exists(path_of(file)) && read_text_file(path_of(file)) != file.text) {
+    check_output(path_of(file));
+    if (is_there(path_of(file)) && read_text_file(path_of(file)) != file.text) {
       throw std::invalid_argument(path_of(file) + ": is there already, with another content; name another folder");
     }
   }
   for (const ExampleFile& file : files) {
-    std::ofstream out(path_of(file), std::ios::binary);
-    if (!out)
-      throw std::invalid_argument(path_of(file) + ": cannot be written: " + std::generic_category().message(errno));
-    out << file.text << std::flush;
-    if (!out) throw std::runtime_error(path_of(file) + ": not everything could be written");
+    if (!is_there(path_of(file))) write_example(path_of(file), file.text);
     std::cout << path_of(file) << '\n';
   }
   return 0;

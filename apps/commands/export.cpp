@@ -1,4 +1,3 @@
-#include <cerrno>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
@@ -9,13 +8,12 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <system_error>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/obj_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -44,9 +42,8 @@ constexpr const char* kExportFooter =
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade export car_door.yaml --out door.obj\n"
-    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade export --log offline.lcmlog --at 0.2 "
-    "--out "
-    "moment.glb";
+    "  glissade demo --offline --seconds 4 --record moment.lcmlog && glissade export --log moment.lcmlog --at 0.2 "
+    "--out moment.glb";
 
 struct ExportOptions {
   std::string scene;
@@ -81,9 +78,7 @@ std::string bytes_of(viewer::ViewScene scene, const std::string& ending) {
 }
 
 void write_file(const std::string& path, const std::string& bytes) {
-  refuse_input(path);
-  std::ofstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument(path + ": cannot be created: " + std::generic_category().message(errno));
+  std::ofstream file = open_output(path);
   file << bytes;
   file.close();
   if (!file) throw std::runtime_error(path + ": not everything could be written");

@@ -11,6 +11,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/run/glove_watch.h>
 #include <glissade/apps/run/lcm_option.h>
@@ -44,7 +45,7 @@ constexpr const char* kGloveFooter =
     "\n"
     "Examples, with the files of 'glissade example' and a server:\n"
     "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv\n"
-    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --record hand.csv";
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --record felt.csv";
 
 struct GloveOptions {
   std::string side = "right";
@@ -53,6 +54,7 @@ struct GloveOptions {
   bool fingers = false;
   std::int64_t device = devices::kDefaultDevice;
   std::string record;
+  bool overwrites = false;
   double frozen_ms = 0.0;
 };
 
@@ -118,7 +120,10 @@ int run(const GloveOptions& options) {
   const StopSignal stop_signal;
   realtime::SteadyClock clock;
   std::optional<GloveRecord> record;
-  if (!options.record.empty()) record.emplace(options.record);
+  if (!options.record.empty()) {
+    check_recording(options.record, options.overwrites);
+    record.emplace(options.record);
+  }
   GloveWatch watch;
   devices::SimulatedGloveParameters parameters = script.with_grip({});
   parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
@@ -178,7 +183,9 @@ void add_glove_command(CLI::App& app, Command& chosen) {
                    "A pose that repeats to the bit for longer is an error of the tracker, and lets the force fade; "
                    "0: not checked")
       ->capture_default_str();
-  command->add_option("--record", options->record, "File for the pose of the hand and the force of every period (CSV)");
+  CLI::Option* record = command->add_option("--record", options->record,
+                                            "File for the pose of the hand and the force of every period (CSV)");
+  command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -2,7 +2,6 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
 #include <iomanip>
 #include <iostream>
 #include <limits>
@@ -22,6 +21,7 @@
 #include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/scene_file.h>
@@ -211,17 +211,10 @@ class GraspTables {
   std::unique_ptr<CsvWriter> object_rows_;
 };
 
-/// Whether two names are those of one file, perhaps one that is still to be written. "-" is the standard output.
-bool are_one_file(const std::string& one, const std::string& other) {
-  if (one == other) return true;
-  if (one.empty() || other.empty() || one == "-" || other == "-") return false;
-  return std::filesystem::weakly_canonical(one) == std::filesystem::weakly_canonical(other);
-}
-
 grasping::GraspSimulation start(const HapticScene& scene,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& hands,
                                 const grasping::GraspRules& rules, const SlidingChoice& choice) {
-  const std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
+  const std::vector<haptics::HeldPart> parts = held_parts(scene, choice);
   try {
     return {scene.obstacles, parts, hands, rules};
   } catch (const std::invalid_argument& error) {
@@ -230,7 +223,8 @@ grasping::GraspSimulation start(const HapticScene& scene,
 }
 
 /// Warns of angles beyond those of any joint, and of a root that never comes near an object.
-void warn_of_units(const std::string& file, const HandTrajectory& trajectory, const Scene& scene) {
+void warn_of_units(const std::string& file, const HandTrajectory& trajectory, const Scene& scene,
+                   const HapticScene& haptic_scene) {
   constexpr double kNoJoint_rad = 2.0 * std::numbers::pi;
   constexpr double kFar_m = 2.0;
   constexpr int kMoments = 200;
@@ -238,25 +232,28 @@ void warn_of_units(const std::string& file, const HandTrajectory& trajectory, co
     warn(file + ": angles of joints up to " + rounded_text(trajectory.greatest_angle()) + " rad: degrees?");
   }
   double nearest_m = std::numeric_limits<double>::infinity();
+  Eigen::AlignedBox3d positions;
   for (const SceneObject& object : scene.objects) {
     if (object.motion) return;  // it may come to the hand
     const Eigen::AlignedBox3d box_B = bounds_of(*object.mesh);
     const Eigen::Isometry3d X_BW = object.X_WB.inverse(Eigen::Isometry);
     for (int i = 0; i <= kMoments; ++i) {
       const std::chrono::nanoseconds time = trajectory.first_time() + i * trajectory.duration() / kMoments;
-      nearest_m = std::min(nearest_m, box_B.exteriorDistance(X_BW * trajectory.posture_at(time).X_WR.translation()));
+      const Eigen::Vector3d p_WR = trajectory.posture_at(time).X_WR.translation();
+      nearest_m = std::min(nearest_m, box_B.exteriorDistance(X_BW * p_WR));
+      positions.extend(p_WR);
     }
   }
   if (nearest_m > kFar_m) {
     warn(file + ": the hand stays more than " + rounded_text(nearest_m) +
          " m away from everything: are its poses and those of the objects in metres?");
+  } else if (const std::string doubt = doubt_of_positions(positions, haptic_scene); !doubt.empty()) {
+    warn(file + ": " + doubt);
   }
 }
 
 int run(const GraspOptions& options) {
-  if (are_one_file(options.out, options.objects)) {
-    throw std::invalid_argument("--objects: " + in_quotes(options.objects) + " is already the file of --out");
-  }
+  check_distinct({{"--out", options.out}, {"--objects", options.objects}, {"--report", report_page(options.report)}});
   if (!options.report.empty()) prepare_report_folder(options.report);
   std::vector<HandTrajectory> trajectories;
   for (const std::string& file : options.trajectories)
@@ -266,7 +263,7 @@ int run(const GraspOptions& options) {
   const HapticScene scene = make_haptic_scene(scene_file, movable_objects(scene_file));
   warn_of_scene(scene_file, scene);
   for (std::size_t i = 0; i < trajectories.size(); ++i)
-    warn_of_units(options.trajectories[i], trajectories[i], scene_file);
+    warn_of_units(options.trajectories[i], trajectories[i], scene_file, scene);
   for (const std::string& name : scene.body_names)
     check_name_fits_csv(scene, name);
   grasping::GraspRules rules;
@@ -306,7 +303,7 @@ int run(const GraspOptions& options) {
   std::vector<std::pair<std::string, std::string>> rows = outcome.rows();
   if (report) {
     Report page = report->finish(outcome);
-    page.summary.emplace_back("rules", words_of(rules.sliding));
+    page.summary.emplace_back("rules", words_of(options.sliding));
     rows.emplace_back("report", write_html_report(page, options.report));
   }
   if (options.out != "-" && options.objects != "-") {

@@ -15,6 +15,11 @@ namespace glissade::apps {
 
 namespace {
 
+constexpr const char* kLogFooter =
+    "Examples:\n"
+    "  glissade demo --offline --seconds 2 --record both.lcmlog && glissade log to-csv both.lcmlog both\n"
+    "  glissade demo --seconds 3 --record shown.lcmlog && glissade log to-mcap shown.lcmlog shown.mcap";
+
 constexpr const char* kTablesFooter =
     "LOG is what 'glissade record', 'glissade demo --record', a flight recorder or lcm-logger wrote. The tables are\n"
     "  ticks.csv   when each tick of the haptic loop started, and how long it took\n"
@@ -25,8 +30,8 @@ constexpr const char* kTablesFooter =
     "If the log is damaged, the tables hold everything before the damage, and the exit code is 1.\n"
     "\n"
     "Examples:\n"
-    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-csv demo.lcmlog tables\n"
-    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade log to-csv offline.lcmlog offline";
+    "  glissade demo --seconds 3 --record log.lcmlog && glissade log to-csv log.lcmlog tables\n"
+    "  glissade demo --offline --seconds 2 --record ticks.lcmlog && glissade log to-csv ticks.lcmlog offline";
 
 constexpr const char* kMcapFooter =
     "FILE can be opened with Foxglove and PlotJuggler. Its topics are\n"
@@ -35,14 +40,13 @@ constexpr const char* kMcapFooter =
     "  /part_0  state, contacts, position and lag of each part\n"
     "  /hand_0  force, torque, energy of each hand, and why its force is reduced\n"
     "  /loop    when each tick of the haptic loop started, and how long it took\n"
-    "A log that does not begin with the beginning of a run, such as one of a flight recorder, has no /scene. All\n"
+    "A log without the beginning of a run, such as one of lcm-logger, has no /scene. All\n"
     "values: docs/file_formats.md in the sources. If the log is damaged, the file holds everything before the damage,\n"
     "and the exit code is 1.\n"
     "\n"
     "Examples:\n"
-    "  glissade demo --offline --seconds 4 --record offline.lcmlog && glissade log to-mcap offline.lcmlog "
-    "offline.mcap\n"
-    "  glissade demo --seconds 3 --record demo.lcmlog && glissade log to-mcap demo.lcmlog demo.mcap";
+    "  glissade demo --offline --seconds 4 --record scene.lcmlog && glissade log to-mcap scene.lcmlog scene.mcap\n"
+    "  glissade demo --seconds 3 --record mcap.lcmlog && glissade log to-mcap mcap.lcmlog demo.mcap";
 
 struct LogOptions {
   std::string log;
@@ -77,7 +81,7 @@ void add_log_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<LogOptions>();
   CLI::App* command = app.add_subcommand("log", "Make other files of event logs");
   command->require_subcommand(1);
-  command->footer(kTablesFooter);
+  command->footer(kLogFooter);
   CLI::App* tables = command->add_subcommand("to-csv", "Write tables (CSV) of an event log of LCM");
   tables->footer(kTablesFooter);
   tables->add_option("LOG", options->log, "Event log of LCM")->required();

@@ -28,11 +28,10 @@ namespace {
 constexpr const char* kReplayDescription = "Repeat a recorded run to the bit, or play its gloves to a server";
 
 constexpr const char* kReplayFooter =
-    "LOG is what 'glissade record' or 'glissade demo --record' wrote. Offline, each tick of the haptic loop and each\n"
-    "answer of the simulation takes in what it took in then, and must give the same bytes. The exit code is 1 if any\n"
-    "differs, which the error names, or if the log is damaged: then everything before the damage is repeated. The "
-    "scene\n"
-    "must not have changed.\n"
+    "LOG is what 'glissade record' or 'glissade demo --record' wrote; of joined logs, all runs are repeated. Offline,\n"
+    "each tick of the haptic loop and each answer of the simulation takes in what it took in then, and must give the\n"
+    "same bytes. The exit code is 1 if any differs, which the error names, or if the log is damaged: then everything\n"
+    "before the damage is repeated. The scene must not have changed.\n"
     "\n"
     "With --lcm, the recorded gloves lead a server that runs elsewhere. They wait for its first command, take the\n"
     "recorded time, and do not yield to forces. Any log with GLOVE_INFO and GLOVE_STATE will do, also one of\n"
@@ -41,10 +40,12 @@ constexpr const char* kReplayFooter =
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
-    "  glissade demo --seconds 3 --record demo.lcmlog && glissade replay demo.lcmlog\n"
+    "  glissade demo --seconds 3 --record run.lcmlog && glissade replay run.lcmlog\n"
     "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade replay offline.lcmlog --json\n"
-    "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade replay offline.lcmlog --report report\n"
-    "With the files of 'glissade example', for a server that the recorded glove leads:\n"
+    "  glissade demo --offline --seconds 2 --record door.lcmlog && glissade replay door.lcmlog --report report\n"
+    "With the files of 'glissade example' and the log of 'glissade demo --seconds 3 --record demo.lcmlog', for a "
+    "server\n"
+    "that the recorded glove leads:\n"
     "  glissade run car_door.yaml --seconds 2 & glissade replay demo.lcmlog --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
 struct ReplayOptions {
@@ -76,7 +77,8 @@ int repeat(const ReplayOptions& options) {
   const ReplayOutcome outcome = repeat_for_audience(options, page);
   const double speed = in_seconds(outcome.recorded) / in_seconds(outcome.elapsed);
   if (options.json) {
-    const nlohmann::json json{{"ticks", outcome.ticks},
+    const nlohmann::json json{{"runs", outcome.runs},
+                              {"ticks", outcome.ticks},
                               {"contact_sets", outcome.contact_sets},
                               {"recorded_s", in_seconds(outcome.recorded)},
                               {"elapsed_s", in_seconds(outcome.elapsed)},
@@ -86,7 +88,8 @@ int repeat(const ReplayOptions& options) {
                               {"damage", outcome.damage}};
     std::cout << json.dump(2) << '\n';
   } else {
-    std::cout << "glissade replay: " << outcome.ticks << " ticks and " << outcome.contact_sets << " contact sets of "
+    std::cout << "glissade replay: " << (outcome.runs > 1 ? std::to_string(outcome.runs) + " runs, " : "")
+              << outcome.ticks << " ticks and " << outcome.contact_sets << " contact sets of "
               << fixed_text(in_seconds(outcome.recorded), 3) << " s are the same to the bit, " << fixed_text(speed, 1)
               << " times as fast as then\n";
     if (!page.empty()) std::cout << "report: " << page << '\n';

@@ -13,6 +13,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/scene_warnings.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -66,11 +67,12 @@ constexpr const char* kRecordFooter =
     "each tick and each answer of the simulation took in and gave out, and when; no command to a glove is in it, so\n"
     "playing it moves no glove. 'glissade replay LOG' repeats the run to the bit, 'glissade replay LOG --lcm URL' "
     "leads\n"
-    "a server as the recorded gloves did, and 'glissade log to-csv LOG FOLDER' makes tables of it.\n"
+    "a server as the recorded gloves did, and 'glissade log to-csv LOG FOLDER' makes tables of it. An older LOG is\n"
+    "replaced only with --overwrite.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a simulated glove:\n"
     "  glissade glove --script square_peg_script.csv & glissade record peg.lcmlog square_peg.yaml --seconds 4\n"
-    "  glissade demo --seconds 3 --record demo.lcmlog";
+    "  glissade demo --seconds 3 --record door_again.lcmlog";
 
 struct RunOptions {
   std::string command = "glissade run";
@@ -209,6 +211,9 @@ int run(const RunOptions& options) {
   take_shapes(options, settings.hands);
   settings.record.scene_file = options.scene;
   if (options.rate_hz != 0.0) settings.period = std::chrono::nanoseconds(std::llround(1e9 / options.rate_hz));
+  check_distinct({{"LOG", options.record.log},
+                  {"--flight-recorder", options.record.flight},
+                  {"--report", report_page(options.report)}});
   if (!options.report.empty()) prepare_report_folder(options.report);
   const StopSignal stop_signal;
   const DumpSignal dump_signal;
@@ -276,7 +281,8 @@ void add_record_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("record", kRecordDescription);
   options->command = "glissade record";
   command->footer(std::string(kRecordFooter) + kSlidingChoiceHelp + kSceneFileHelp);
-  command->add_option("LOG", options->record.log, "File for the recording; an existing one is replaced")->required();
+  command->add_option("LOG", options->record.log, "File for the recording")->required();
+  command->add_flag("--overwrite", options->record.overwrites, kOverwriteHelp);
   add_options(*command, *options);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

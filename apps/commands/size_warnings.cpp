@@ -105,4 +105,20 @@ std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& sc
   return sentences;
 }
 
+std::string doubt_of_positions(const Eigen::AlignedBox3d& positions, const HapticScene& scene) {
+  constexpr double kFar_m = 2.0;         // no reach of an arm
+  constexpr double kFarSizes = 5.0;      // of the scene
+  if (!scene.moving.empty()) return "";  // something may lead the way
+  Eigen::AlignedBox3d around;
+  for (const viewer::ViewObject& object : scene.shown) {
+    const Eigen::AlignedBox3d box_B = bounds_of(*object.mesh);
+    for (int corner = 0; corner < 8; ++corner)
+      around.extend(object.X_WB * box_B.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
+  }
+  if (scene.X_WGoal) around.extend(Eigen::Vector3d(scene.X_WGoal->translation()));
+  const double beyond_m = (positions.max() - around.max()).cwiseMax(around.min() - positions.min()).maxCoeff();
+  if (beyond_m <= std::max(kFar_m, kFarSizes * around.diagonal().norm())) return "";
+  return "it leads " + rounded_text(beyond_m) + " m beyond everything in the scene: are its positions in millimetres?";
+}
+
 }  // namespace glissade::apps

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/geometry/triangle_mesh.h>
@@ -27,5 +29,9 @@ std::vector<std::string> doubtful_objects(const Scene& file);
 /// The same, and a sentence for each part that is thousands of times as large as all obstacles, or as small. `file` is
 /// what `scene` was made of.
 std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& scene);
+
+/// What is doubtful in a trajectory with these positions (metres): that it leads much farther than everything in the
+/// scene reaches. Empty if nothing is.
+std::string doubt_of_positions(const Eigen::AlignedBox3d& positions, const HapticScene& scene);
 
 }  // namespace glissade::apps

@@ -1,5 +1,4 @@
 #include <chrono>
-#include <filesystem>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -18,6 +17,7 @@
 #include <glissade/apps/commands/slide_summary.h>
 #include <glissade/apps/commands/slide_tables.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/followed_trajectory.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -42,7 +42,8 @@ constexpr const char* kSlideDescription =
 constexpr int kGoalNotReached = 3;
 
 constexpr const char* kSlideFooter =
-    "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WG of the ghost, i.e. the\n"
+    "Trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz, or roll_deg,pitch_deg,yaw_deg in place of the last four (turns\n"
+    "about the fixed axes x, then y, then z). Each row is a time and the pose X_WG of the ghost, i.e. the\n"
     "pose that the part would have if nothing were in the way; times increase. Between rows, translation is linear\n"
     "and rotation follows the shorter arc at constant speed. The part starts at the first row, where it must not\n"
     "collide (but see --depenetrate).\n"
@@ -50,7 +51,7 @@ constexpr const char* kSlideFooter =
     "Output: one row per millisecond with the time, the poses of the ghost and of the visible part (where the part is\n"
     "shown, never inside an obstacle), the wrench on the hand about the part's origin in world axes, the number of\n"
     "contacts with a force, and the state of the part. If no table goes to the standard output, a line there says\n"
-    "whether the part reached its goal, and with which force.\n"
+    "whether the part reached its goal, and with which force; for several trajectories a last line counts them.\n"
     "\n"
     "Methods:\n"
     "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes\n"
@@ -149,13 +150,17 @@ class Teller {
     if (check.problem) {
       std::cerr << "glissade: " << check.trajectory << ": " << *check.problem << '\n';
       exit_code_ = 1;
+      ++impossible_;
       return;
     }
+    if (check.goal_reached) ++reached_;
     const double size_m = size_of(scene_.parts.front().part_V->tree.mesh());
     constexpr double kFar = 2.0;  // sizes of the part
     if (check.far_m > kFar * size_m) {
       warn(check.trajectory + ": the part, " + rounded_text(size_m) + " m across, stays more than " +
            rounded_text(check.far_m) + " m away from everything: are the trajectory and all poses in metres?");
+    } else if (!check.doubt.empty()) {
+      warn(check.trajectory + ": " + check.doubt);
     }
     if (!has_table_on_standard_output(options_)) {
       std::cout << check.trajectory << ": " << verdict(check, check_options_) << std::endl;
@@ -169,6 +174,14 @@ class Teller {
     }
   }
 
+  /// How many of several trajectories reach the goal.
+  void conclude(std::size_t trajectories) const {
+    if (trajectories < 2 || has_table_on_standard_output(options_)) return;
+    const std::size_t missed = trajectories - reached_ - impossible_;
+    std::cout << trajectories << " trajectories: " << reached_ << " reach the goal, " << missed << " do not, "
+              << impossible_ << " cannot be checked\n";
+  }
+
   int exit_code() const { return exit_code_; }
 
  private:
@@ -176,6 +189,8 @@ class Teller {
   const SlideCheckOptions& check_options_;
   const SlideOptions& options_;
   std::optional<SlideSummary> summary_;
+  std::size_t reached_ = 0;
+  std::size_t impossible_ = 0;
   int exit_code_ = 0;
 };
 
@@ -225,34 +240,26 @@ haptics::SlidingOptions sliding_options(const SlideOptions& options) {
   return {.metaphor = metaphor_of(options.sliding), .rules = with_choice({}, options.sliding)};
 }
 
-/// Two tables must not share a file, and one trajectory alone has tables of its motion.
+/// Two outputs must not share a file, and one trajectory alone has tables of its motion.
 void check_files(const SlideOptions& options) {
   const SlideTableFiles& tables = options.tables;
-  const std::vector<std::pair<std::string, std::string>> files{{"--out", tables.motion},
-                                                               {"--contacts", tables.contacts.contacts},
-                                                               {"--patches", tables.contacts.patches},
-                                                               {"--moving", tables.moving},
-                                                               {"--summary", options.summary}};
-  const auto name_of = [](const std::string& file) {
-    return file.empty() || file == "-" ? file : weakly_canonical(std::filesystem::absolute(file)).string();
-  };
-  for (std::size_t i = 0; i < files.size(); ++i) {
-    if (files[i].second.empty()) continue;
-    if (options.trajectories.size() > 1 && files[i].first != "--summary") {
-      throw std::invalid_argument(files[i].first +
-                                  ": applies to one trajectory; several write to --summary and --report");
-    }
-    for (std::size_t j = 0; j < i; ++j) {
-      if (name_of(files[i].second) != name_of(files[j].second)) continue;
-      throw std::invalid_argument(files[i].first + ": " + in_quotes(files[i].second) + " is already the file of " +
-                                  files[j].first);
-    }
+  const std::vector<std::pair<std::string, std::string>> of_one_motion{{"--out", tables.motion},
+                                                                       {"--contacts", tables.contacts.contacts},
+                                                                       {"--patches", tables.contacts.patches},
+                                                                       {"--moving", tables.moving}};
+  for (const auto& [option, file] : of_one_motion) {
+    if (options.trajectories.size() == 1 || file.empty()) continue;
+    throw std::invalid_argument(option + ": applies to one trajectory; several write to --summary and --report");
   }
+  std::vector<std::pair<std::string, std::string>> outputs = of_one_motion;
+  outputs.emplace_back("--summary", options.summary);
+  outputs.emplace_back("--report", report_page(options.report));
+  check_distinct(outputs);
 }
 
 int run(SlideOptions options) {
-  SlideCheckOptions check_options{sliding_options(options), parse_method(options.method), options.goal_tolerance_m,
-                                  options.goal_tolerance_deg};
+  SlideCheckOptions check_options{sliding_options(options), options.sliding, parse_method(options.method),
+                                  options.goal_tolerance_m, options.goal_tolerance_deg};
   check_options.needs_summary = options.is_check();
   check_options.needs_curve = !options.report.empty();
   if (check_options.method == haptics::SlidingMethod::kPaper && options.sliding.has_rules()) {
@@ -267,6 +274,7 @@ int run(SlideOptions options) {
   }
   const Scene file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, {options.part});
+  check_options.sliding.stiffness = stiffness_of(options.sliding, scene.parts.front().part_V->radius());
   if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);
@@ -296,6 +304,7 @@ int run(SlideOptions options) {
       teller.tell(check);
       checks.push_back(std::move(check));
     });
+    teller.conclude(checks.size());
   } else {
     if (!options.report.empty()) replay.emplace(scene);
     checks.push_back(

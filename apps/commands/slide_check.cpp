@@ -9,6 +9,7 @@
 #include <utility>
 
 #include <glissade/apps/commands/least_clearance.h>
+#include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/commands/slide_check.h>
 #include <glissade/apps/durations.h>
 #include <glissade/apps/report/growing_curve.h>
@@ -94,6 +95,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   check.trajectory = name;
   check.has_goal = scene.X_WGoal.has_value();
   check.duration_s = in_seconds(trajectory.duration());
+  check.doubt = doubt_of_positions(trajectory.positions(), scene);
   check.far_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<haptics::SlidingSimulation> sliding;
   try {
@@ -165,7 +167,7 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   report.summary.emplace_back("scene", scene.source);
   report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.sliding.metaphor)));
   report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
-  report.summary.emplace_back("rules", words_of(options.sliding.rules));
+  report.summary.emplace_back("rules", words_of(options.choice));
   report.summary.emplace_back(scene.X_WGoal ? "goal reached" : "end of the trajectory reached",
                               std::to_string(reached) + " of " + std::to_string(checks.size()));
   for (const SlideCheck& check : checks)

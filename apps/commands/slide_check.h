@@ -12,13 +12,15 @@
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/report/plot.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/scene/sliding_option.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding.h>
 
 namespace glissade::apps {
 
 struct SlideCheckOptions {
-  haptics::SlidingOptions sliding{};
+  haptics::SlidingOptions sliding{};  ///< what follows from the choice
+  SlidingChoice choice{};
   haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;
@@ -41,6 +43,7 @@ struct SlideCheck {
   double contact_s = 0.0;  ///< time during which contacts pushed
   PlotSeries force;        ///< newtons over seconds
   PlotSeries clearance;    ///< as of `ClearanceCurve`; empty if left out
+  std::string doubt;       ///< of the positions, see `doubt_of_positions`
   double far_m = 0.0;      ///< a lower bound of the least clearance, from bounding spheres
 };
 

@@ -1,13 +1,14 @@
+#include <algorithm>
+#include <array>
 #include <cassert>
-#include <cerrno>
 #include <iostream>
 #include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/csv_columns.h>
-#include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/file_checks.h>
+#include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -64,10 +65,14 @@ std::vector<std::string_view> fields_of(std::string_view line) {
 /// The mark that some spreadsheets put before a text in UTF-8.
 constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
 
-void check_header(std::string_view line, const std::string& source, const std::vector<std::string>& columns) {
+/// The columns of a file: these, or the same with angles in place of a quaternion.
+std::vector<std::string> read_header(std::string_view line, const std::string& source,
+                                     const std::vector<std::string>& columns) {
   if (line.starts_with(kByteOrderMark)) line.remove_prefix(kByteOrderMark.size());
   const std::vector<std::string_view> names = fields_of(line);
-  if (std::equal(names.begin(), names.end(), columns.begin(), columns.end())) return;
+  for (const std::vector<std::string>& known : {columns, with_angles(columns)}) {
+    if (std::equal(names.begin(), names.end(), known.begin(), known.end())) return known;
+  }
   const std::string expected = header_of(columns);
   const std::string table = told_table(line);
   std::string without_spaces(line);
@@ -86,6 +91,16 @@ bool is_spaced(std::string_view field) {
   return number.size() < field.size() && parse_number(number).has_value();
 }
 
+/// Replaces angles in a row by the quaternion that they stand for.
+void replace_angles(const std::vector<std::string>& columns, std::vector<double>& values) {
+  const auto column = std::find(columns.begin(), columns.end(), kAngleColumns.front());
+  if (column == columns.end()) return;
+  const auto first = values.begin() + (column - columns.begin());
+  const Eigen::Quaterniond q = rotation_of(first[0], first[1], first[2]);
+  const std::array<double, 4> wxyz{q.w(), q.x(), q.y(), q.z()};
+  values.insert(values.erase(first, first + 3), wxyz.begin(), wxyz.end());
+}
+
 void parse_row(std::string_view line, const std::string& where, const std::vector<std::string>& columns,
                std::vector<double>& values) {
   const std::vector<std::string_view> fields = fields_of(line);
@@ -102,6 +117,7 @@ void parse_row(std::string_view line, const std::string& where, const std::vecto
     }
     values.push_back(*value);
   }
+  replace_angles(columns, values);
 }
 
 }  // namespace
@@ -116,21 +132,21 @@ CsvTable read_csv(const std::string& path, const std::vector<std::string>& colum
 
 CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns) {
   if (text.empty()) throw std::invalid_argument(source + ": the file is empty");
-  check_header(take_line(text), source, columns);
+  const std::vector<std::string> in_file = read_header(take_line(text), source, columns);
   text = without_blank_end(text);
   CsvTable table{source, {}};
   while (!text.empty()) {
     const std::string where = table.where(table.rows.size());
-    parse_row(take_line(text), where, columns, table.rows.emplace_back());
+    parse_row(take_line(text), where, in_file, table.rows.emplace_back());
   }
   if (table.rows.empty()) throw_no_rows(source);
   return table;
 }
 
-CsvReader::CsvReader(const std::string& path, std::vector<std::string> columns)
-    : path_(path), columns_(std::move(columns)), file_(open_text_file(path)) {
+CsvReader::CsvReader(const std::string& path, const std::vector<std::string>& columns)
+    : path_(path), file_(open_text_file(path)) {
   if (!read_line(file_, line_)) throw std::invalid_argument(path + ": the file is empty");
-  check_header(line_, path_, columns_);
+  columns_ = read_header(line_, path_, columns);
   if (file_.peek() == std::ifstream::traits_type::eof()) throw_no_rows(path_);
 }
 
@@ -160,9 +176,7 @@ std::string CsvReader::where() const {
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& columns)
     : path_(path), columns_(columns.size()), out_(&std::cout) {
   if (path != "-") {
-    refuse_input(path);
-    file_.open(path, std::ios::binary);
-    if (!file_) throw std::invalid_argument(path + ": cannot be written: " + std::generic_category().message(errno));
+    file_ = open_output(path);
     out_ = &file_;
   }
   for (const std::string& column : columns)

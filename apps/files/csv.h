@@ -22,7 +22,8 @@ struct CsvTable {
   std::string where(std::size_t row) const;
 };
 
-/// Reads a file whose header row is exactly `columns`. Blank lines at the end are skipped.
+/// Reads a file whose header row is exactly `columns`, or has angles in place of a quaternion (`with_angles`): rows
+/// have the quaternion. Blank lines at the end are skipped.
 ///
 /// Throws std::invalid_argument, naming file, line, column and value, for a file that is missing, a folder or not
 /// readable, for another header, no rows or a wrong number of columns, and for a value that is not a finite number.
@@ -35,7 +36,7 @@ CsvTable parse_csv(std::string_view text, const std::string& source, const std::
 class CsvReader {
  public:
   /// Opens the file and reads its header row.
-  CsvReader(const std::string& path, std::vector<std::string> columns);
+  CsvReader(const std::string& path, const std::vector<std::string>& columns);
 
   /// Reads the next row; false at the end of the file.
   bool next();
@@ -48,7 +49,7 @@ class CsvReader {
   bool only_blanks_follow();
 
   std::string path_;
-  std::vector<std::string> columns_;
+  std::vector<std::string> columns_;  // of the file
   std::ifstream file_;
   std::string line_;
   std::size_t line_number_ = 1;

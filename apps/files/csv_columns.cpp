@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <array>
+
 #include <glissade/apps/files/csv_columns.h>
 #include <glissade/devices/glove_device.h>
 
@@ -13,6 +16,17 @@ std::string header_of(const std::vector<std::string>& columns) {
 const std::vector<std::string>& pose_columns() {
   static const std::vector<std::string> columns{"x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
   return columns;
+}
+
+std::vector<std::string> with_angles(const std::vector<std::string>& columns) {
+  static const std::array<std::string, 4> quaternion{"qw", "qx", "qy", "qz"};
+  const auto begin = std::search(columns.begin(), columns.end(), quaternion.begin(), quaternion.end());
+  if (begin == columns.end()) return {};
+  std::vector<std::string> result(columns.begin(), begin);
+  for (const std::string_view column : kAngleColumns)
+    result.emplace_back(column);
+  result.insert(result.end(), begin + quaternion.size(), columns.end());
+  return result;
 }
 
 std::vector<std::string> trajectory_columns() {
@@ -36,14 +50,19 @@ std::vector<std::string> hand_trajectory_columns() {
 }
 
 std::string told_table(std::string_view header) {
-  if (header == header_of(pose_columns())) return "a file of poses, which 'glissade collide --poses' reads";
-  if (header == header_of(trajectory_columns())) {
+  const auto is = [header](const std::vector<std::string>& columns) {
+    return header == header_of(columns) || header == header_of(with_angles(columns));
+  };
+  if (is(pose_columns())) return "a file of poses, which 'glissade collide --poses' reads";
+  if (is(trajectory_columns())) {
     return "the trajectory of a part, which 'glissade slide --trajectory' reads";
   }
-  if (header == header_of(hand_trajectory_columns())) {
+  if (is(hand_trajectory_columns())) {
     return "the trajectory of a hand with fingers, which 'glissade grasp --hand-trajectory' reads";
   }
-  if (header == header_of(trajectory_columns()) + ",grip") {
+  std::vector<std::string> script = trajectory_columns();
+  script.emplace_back("grip");
+  if (is(script)) {
     return "the script of a hand, which 'glissade glove --script' reads";
   }
   return "";

@@ -2,17 +2,25 @@
 
 /// The columns of the tables that the program reads, and which command reads a table.
 
+#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace glissade::apps {
 
+/// Angles that stand for a quaternion; docs/file_formats.md has their order.
+inline constexpr std::array<std::string_view, 3> kAngleColumns{"roll_deg", "pitch_deg", "yaw_deg"};
+
 /// The header row of a table.
 std::string header_of(const std::vector<std::string>& columns);
 
 /// The columns of a pose: position in metres, unit quaternion.
 const std::vector<std::string>& pose_columns();
+
+/// The same table with an orientation by three angles, roll_deg, pitch_deg and yaw_deg, in place of the quaternion;
+/// empty for a table without a quaternion.
+std::vector<std::string> with_angles(const std::vector<std::string>& columns);
 
 /// The columns of a trajectory: time and pose.
 std::vector<std::string> trajectory_columns();

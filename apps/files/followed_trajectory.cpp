@@ -17,8 +17,10 @@ std::optional<geometry::TimedPose> FollowedTrajectory::Rows::next() {
 
 FollowedTrajectory::FollowedTrajectory(const std::string& path)
     : path_(path), rows_(path), first_(rows_.next().value()), last_(first_), next_(first_), piece_({first_}) {
-  for (std::optional<geometry::TimedPose> row = first_; row; row = rows_.next())
+  for (std::optional<geometry::TimedPose> row = first_; row; row = rows_.next()) {
     last_ = *row;
+    positions_.extend(Eigen::Vector3d(row->X_WB.translation()));
+  }
   check_duration(duration(), path);
   rows_ = Rows(path);
   next_ = rows_.next().value();

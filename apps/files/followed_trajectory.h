@@ -24,6 +24,9 @@ class FollowedTrajectory {
   const Eigen::Isometry3d& first_pose() const { return first_.X_WB; }
   const Eigen::Isometry3d& last_pose() const { return last_.X_WB; }
 
+  /// Holds all positions, metres.
+  const Eigen::AlignedBox3d& positions() const { return positions_; }
+
   /// The pose at a time that is not before that of the last call, as `geometry::PoseTrajectory` gives it. Throws
   /// std::invalid_argument if the file has become shorter meanwhile, and as the constructor.
   Eigen::Isometry3d pose_at(std::chrono::nanoseconds time);
@@ -46,6 +49,7 @@ class FollowedTrajectory {
   geometry::TimedPose last_;
   geometry::TimedPose next_;        // the end of the present piece
   geometry::PoseTrajectory piece_;  // from the row before
+  Eigen::AlignedBox3d positions_;
 };
 
 }  // namespace glissade::apps

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <glissade/apps/files/pose_rules.h>
@@ -16,6 +17,14 @@ std::string spaced(const Eigen::Vector4d& values) {
 }
 
 }  // namespace
+
+Eigen::Quaterniond rotation_of(double roll_deg, double pitch_deg, double yaw_deg) {
+  const auto about = [](double angle_deg, const Eigen::Vector3d& axis) {
+    return Eigen::AngleAxisd(std::remainder(angle_deg, 360.0) * std::numbers::pi / 180.0, axis);
+  };
+  return about(yaw_deg, Eigen::Vector3d::UnitZ()) * about(pitch_deg, Eigen::Vector3d::UnitY()) *
+         about(roll_deg, Eigen::Vector3d::UnitX());
+}
 
 Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& q, const std::string& where) {
   for (const double coordinate : position) {

@@ -11,6 +11,9 @@ namespace glissade::apps {
 /// Largest coordinate for which collision queries are exact.
 inline constexpr double kLargestCoordinate_m = 1e9;
 
+/// The rotation by angles in degrees about the fixed axes, x first, then y, then z: R = R_z(yaw) R_y(pitch) R_x(roll).
+Eigen::Quaterniond rotation_of(double roll_deg, double pitch_deg, double yaw_deg);
+
 /// The pose at `position` (metres) with the rotation `q` scaled to unit length.
 ///
 /// Throws std::invalid_argument, beginning with `where` ("file:line"), when the length of the quaternion deviates from

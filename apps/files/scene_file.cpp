@@ -6,7 +6,7 @@
 #include <utility>
 
 #include <glissade/apps/did_you_mean.h>
-#include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/files/scene_file.h>
@@ -166,7 +166,7 @@ class SceneReader {
     Geometry& geometry = files_[{path, scale}];
     if (geometry.mesh) return geometry;
     try {
-      note_input(path);
+      check_input(path);
       geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
       for (const std::string& sentence : imported.warnings)
         mesh_warnings_.push_back(path + ": " + sentence);
@@ -207,6 +207,11 @@ class SceneReader {
       const Eigen::Vector4d wxyz = yaml_.numbers(given, "orientation_wxyz", 4);
       q = Eigen::Quaterniond(wxyz[0], wxyz[1], wxyz[2], wxyz[3]);
       where = yaml_.where(given) + ": " + key + ": orientation_wxyz";
+    }
+    if (const YAML::Node given = node["orientation_rpy_deg"]) {
+      if (node["orientation_wxyz"]) yaml_.fail(given, key + ": has orientation_wxyz and orientation_rpy_deg; give one");
+      const Eigen::Vector3d rpy = yaml_.numbers(given, "orientation_rpy_deg", 3);
+      q = rotation_of(rpy[0], rpy[1], rpy[2]);
     }
     return checked_pose(position, q, where);
   }

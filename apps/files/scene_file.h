@@ -33,7 +33,7 @@ inline constexpr std::array<std::string_view, 11> kObjectKeys{"name",
                                                               "gives_way",
                                                               "compliance_point_m"};
 inline constexpr std::string_view kShapeTypeKey = "type";
-inline constexpr std::array<std::string_view, 2> kPoseKeys{"position_m", "orientation_wxyz"};
+inline constexpr std::array<std::string_view, 3> kPoseKeys{"position_m", "orientation_wxyz", "orientation_rpy_deg"};
 inline constexpr std::array<std::string_view, 2> kBoxKeys{"min_m", "max_m"};
 
 /// The end of `--help` for every command that reads a scene.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <exception>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <glissade/apps/record/flight_log.h>
@@ -44,7 +45,8 @@ std::string FlightLog::write(bool is_last) {
   ++files_;
   const std::filesystem::path first(path_);
   std::filesystem::path path = first;
-  for (int number = 2; std::filesystem::exists(path); ++number) {
+  std::error_code ignored;
+  for (int number = 2; std::filesystem::exists(std::filesystem::symlink_status(path, ignored)); ++number) {
     path = first;
     path.replace_extension();
     path += "-" + std::to_string(number);

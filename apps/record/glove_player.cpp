@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include <glissade/apps/record/glove_player.h>
+#include <glissade/apps/record/log_file.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_loop.h>
@@ -69,15 +70,20 @@ class Player {
 }  // namespace
 
 std::vector<GloveTrack> read_glove_tracks(const std::string& log_path, std::string& damage) {
-  devices::EventLogReader log(log_path);
+  LogFile log(log_path, "gloves");
   std::map<std::int64_t, devices::GloveInfo> gloves;
   std::map<std::int64_t, std::vector<GloveTrack::Sample>> samples;
-  std::optional<std::chrono::microseconds> first;
+  constexpr std::chrono::milliseconds kNewClock(100);
+  std::optional<std::chrono::microseconds> first;  // time of the log at the time 0 of the tracks
+  std::chrono::microseconds newest{0};
   while (const std::optional<devices::LogEvent> event = log.next()) {
     if (const auto glove = devices::glove_info_of(*event)) gloves.try_emplace(glove->device, *glove);
     const auto logged = devices::glove_state_of(*event);
     if (!logged) continue;
     if (!first) first = event->time;
+    // The clock of a joined log may begin anew: the gloves go on from where they were.
+    if (event->time - *first < newest - kNewClock) first = event->time - newest;
+    newest = std::max(newest, event->time - *first);
     samples[logged->device].push_back({event->time - *first, logged->state});
   }
   damage = log.damage();

@@ -1,15 +1,14 @@
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
-#include <filesystem>
 #include <map>
 #include <optional>
-#include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include <glissade/apps/durations.h>
-#include <glissade/apps/progress.h>
+#include <glissade/apps/files/file_checks.h>
+#include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/log_mcap.h>
 #include <glissade/apps/record/mcap_schemas.h>
 #include <glissade/apps/record/mcap_writer.h>
@@ -99,7 +98,9 @@ Json scene_update(const viewer::ViewScene& scene, std::chrono::nanoseconds time)
   Json entities = Json::array();
   for (std::size_t i = 0; i < meshes.size(); ++i)
     entities.push_back(entity_of(scene.objects[i], *meshes[i], time));
-  return {{"deletions", Json::array()}, {"entities", std::move(entities)}};
+  constexpr int kAll = 1;  // objects of the run before
+  const Json deletion{{"timestamp", stamp_of(time)}, {"type", kAll}, {"id", ""}};
+  return {{"deletions", Json::array({deletion})}, {"entities", std::move(entities)}};
 }
 
 Json loop_message(const haptics::TickRecord& tick) {
@@ -153,12 +154,25 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
 /// A file that begins with the first message.
 class McapLog {
  public:
-  McapLog(std::string path, std::optional<viewer::ViewScene> scene)
-      : path_(std::move(path)), scene_(std::move(scene)) {}
+  explicit McapLog(std::string path) : path_(std::move(path)) {}
+
+  /// What follows is of a run in this scene. Its clock may have begun anew.
+  void begin_run(viewer::ViewScene scene) {
+    scene_ = std::move(scene);
+    X_WH_.fill(std::nullopt);
+    if (newest_) earliest_ = *newest_ + std::chrono::seconds(1);
+  }
 
   void add(const devices::LogEvent& event) {
-    if (const auto tick = haptics::consumed_by_tick(event)) return add(*tick);
-    if (const auto state = devices::haptic_state_of(event)) add(*state);
+    if (auto tick = haptics::consumed_by_tick(event)) {
+      const std::chrono::nanoseconds time = shifted(tick->time);
+      tick->deadline += time - tick->time;
+      tick->time = time;
+      add(*tick);
+    } else if (auto state = devices::haptic_state_of(event)) {
+      state->time = shifted(state->time);
+      add(*state);
+    }
   }
 
   std::vector<McapTopic> close() {
@@ -171,11 +185,18 @@ class McapLog {
   }
 
  private:
+  std::chrono::nanoseconds shifted(std::chrono::nanoseconds time) {
+    if (earliest_) shift_ = std::max(*earliest_ - time, std::chrono::nanoseconds(0));
+    earliest_.reset();
+    return time + shift_;
+  }
+
   void write(const std::string& topic, Json (*schema)(), std::chrono::nanoseconds time, const Json& message) {
     if (!writer_) writer_.emplace(path_);
     const auto [channel, is_new] = channels_.try_emplace(topic, 0);
     if (is_new) channel->second = writer_->add_channel(topic, schema().at("title"), schema().dump());
     writer_->write(channel->second, time, message.dump(-1, ' ', false, Json::error_handler_t::replace));
+    newest_ = std::max(newest_.value_or(time), time);
   }
 
   void add(const haptics::TickRecord& tick) {
@@ -207,36 +228,32 @@ class McapLog {
   }
 
   std::string path_;
-  std::optional<viewer::ViewScene> scene_;  // until it is written
+  std::optional<viewer::ViewScene> scene_;            // until it is written
+  std::optional<std::chrono::nanoseconds> newest_;    // time of a message
+  std::optional<std::chrono::nanoseconds> earliest_;  // of the run's first message, until it is there
+  std::chrono::nanoseconds shift_{0};                 // from the clock of the run to that of the file
   std::optional<McapWriter> writer_;
   std::map<std::string, std::uint16_t> channels_;
   std::array<std::optional<Eigen::Isometry3d>, devices::kHapticHands> X_WH_{};  // of a hand without fingers: its glove
 };
 
-/// A log without a session has no scene.
-std::optional<viewer::ViewScene> scene_of(const std::string& log_path, const std::string& scene_file) {
-  devices::EventLogReader first(log_path);
-  const std::optional<devices::LogEvent> event = first.next();
-  if (scene_file.empty() && (!event || event->channel != kHapticSessionChannel)) return std::nullopt;
-  devices::EventLogReader log(log_path);
-  return recorded_view(log_path, read_session(log, log_path), scene_file);
-}
-
 }  // namespace
 
 std::vector<McapTopic> write_log_mcap(const std::string& log_path, const std::string& mcap_path,
                                       const std::string& scene_file, std::string& damage) {
-  McapLog mcap(mcap_path, scene_of(log_path, scene_file));
-  std::error_code error;
-  if (std::filesystem::equivalent(log_path, mcap_path, error))
-    throw std::invalid_argument(mcap_path + ": is the log itself");
-  devices::EventLogReader log(log_path);
-  ProgressBar progress("mcap", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
-  std::int64_t bytes = 0;
+  if (!scene_file.empty()) {
+    LogFile with_a_run(log_path, "log");
+    first_session(with_a_run);
+  }
+  LogFile log(log_path, "mcap");
+  check_output(mcap_path);
+  McapLog mcap(mcap_path);
   while (const std::optional<devices::LogEvent> event = log.next()) {
-    mcap.add(*event);
-    bytes += std::ssize(event->message);
-    progress.update(bytes);
+    if (event->channel == kHapticSessionChannel) {
+      mcap.begin_run(recorded_view(log_path, read_session(*event, log), scene_file));
+    } else {
+      mcap.add(*event);
+    }
   }
   damage = log.damage();
   return mcap.close();

@@ -8,8 +8,9 @@
 
 #include <glissade/apps/durations.h>
 #include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/trajectory_file.h>
-#include <glissade/apps/progress.h>
+#include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/log_tables.h>
 #include <glissade/apps/run/force_reason.h>
 #include <glissade/devices/event_log.h>
@@ -27,7 +28,9 @@ using Columns = std::vector<std::string>;
 class Table {
  public:
   Table(const std::string& folder, const std::string& name, Columns columns)
-      : path_((std::filesystem::path(folder) / name).string()), columns_(std::move(columns)) {}
+      : path_((std::filesystem::path(folder) / name).string()), columns_(std::move(columns)) {
+    check_output(path_);
+  }
 
   CsvWriter& new_row() {
     ++rows_;
@@ -194,18 +197,13 @@ class Tables {
 }  // namespace
 
 std::vector<LogTable> write_log_tables(const std::string& log_path, const std::string& folder, std::string& damage) {
-  devices::EventLogReader log(log_path);
+  LogFile log(log_path, "tables");
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot be created: " + error.message());
   Tables tables(folder);
-  ProgressBar progress("tables", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
-  std::int64_t bytes = 0;
-  while (const std::optional<devices::LogEvent> event = log.next()) {
+  while (const std::optional<devices::LogEvent> event = log.next())
     tables.add(*event);
-    bytes += std::ssize(event->message);
-    progress.update(bytes);
-  }
   damage = log.damage();
   return tables.close();
 }

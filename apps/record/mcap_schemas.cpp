@@ -98,8 +98,12 @@ Json scene_update_schema() {
               {"triangles", list(triangles())}};
   for (const char* unused : {"arrows", "cubes", "spheres", "cylinders", "lines", "texts", "models"})
     entity[unused] = list(object(unused, Json::object()));
-  return object("foxglove.SceneUpdate", {{"deletions", list(object("foxglove.SceneEntityDeletion", Json::object()))},
-                                         {"entities", list(object("foxglove.SceneEntity", std::move(entity)))}});
+  Json deletion{{"timestamp", time("time")},
+                {"type", integer("0: the entity with this name; 1: all")},
+                {"id", words("name of the object")}};
+  return object("foxglove.SceneUpdate",
+                {{"deletions", list(object("foxglove.SceneEntityDeletion", std::move(deletion)))},
+                 {"entities", list(object("foxglove.SceneEntity", std::move(entity)))}});
 }
 
 Json loop_schema() {

@@ -1,8 +1,7 @@
 #include <algorithm>
-#include <cerrno>
 #include <stdexcept>
-#include <system_error>
 
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/mcap_writer.h>
 #include <glissade/base/byte_order.h>
 
@@ -72,8 +71,7 @@ void McapWriter::Span::include(std::uint64_t time) {
   is_empty = false;
 }
 
-McapWriter::McapWriter(const std::string& path) : path_(path), file_(path, std::ios::binary) {
-  if (!file_) throw std::invalid_argument(path + ": cannot be created: " + std::generic_category().message(errno));
+McapWriter::McapWriter(const std::string& path) : path_(path), file_(open_output(path)) {
   put(kMagic);
   put(record(Opcode::kHeader, Fields().text("").text("glissade").bytes()));  // no profile; the library
 }

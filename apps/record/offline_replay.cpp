@@ -1,9 +1,10 @@
-#include <filesystem>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <glissade/apps/progress.h>
+#include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/offline_replay.h>
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
@@ -13,10 +14,10 @@
 
 namespace glissade::apps {
 
-ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file, ReplayAudience* audience) {
-  devices::EventLogReader log(log_path);
-  const RecordedSession session = read_session(log, log_path);
-  const HapticScene scene = recorded_scene(log_path, session, scene_file);
+namespace {
+
+/// The hands that take hold in a run.
+std::vector<Grip> grips_of(const RecordedSession& session, const HapticScene& scene, const std::string& log_path) {
   std::vector<Grip> grips;
   for (const RecordedHand& hand : session.hands) {
     if (hand.part && *hand.part >= scene.parts.size()) {
@@ -25,41 +26,73 @@ ReplayOutcome replay_offline(const std::string& log_path, const std::string& sce
     }
     grips.push_back({hand.glove.descriptor, hand.part, hand.fingers});
   }
+  return grips;
+}
+
+void begin(ReplayAudience& audience, const HapticScene& scene, const RecordedSession& session,
+           const StartedSimulation& started) {
+  std::vector<std::int64_t> devices;
+  for (const RecordedHand& hand : session.hands)
+    devices.push_back(hand.glove.device);
+  audience.begin(scene, session.choice, session.period, devices, started.models);
+}
+
+/// Feeds a run to its replay. Returns the session of the next run in the log.
+std::optional<RecordedSession> feed(LogFile& log, haptics::Replay& replay, ReplayAudience* audience) {
+  while (std::optional<devices::LogEvent> event = log.next()) {
+    if (event->channel == kHapticSessionChannel) {
+      if (!replay.finish()) return std::nullopt;
+      return read_session(*event, log);
+    }
+    const auto state = audience != nullptr ? devices::haptic_state_of(*event) : std::nullopt;
+    if (!replay.take(std::move(*event))) return std::nullopt;
+    if (!state || audience->take(*state)) continue;
+    replay.settle();
+    return std::nullopt;
+  }
+  log.damage().empty() ? replay.finish() : replay.settle();
+  return std::nullopt;
+}
+
+/// Repeats a run, adds what came of it, and returns the session of the next one.
+std::optional<RecordedSession> repeat(const RecordedSession& session, LogFile& log, const std::string& scene_file,
+                                      ReplayAudience* audience, ReplayOutcome& outcome) {
+  const HapticScene scene = recorded_scene(log.path(), session, scene_file);
+  const std::vector<Grip> grips = grips_of(session, scene, log.path());
   haptics::SlidingRules rules = session.rules;
   rules.has_search_thread = true;  // takes less time, and gives the same bits
   StartedSimulation started = start_simulation(scene, grips, session.choice, rules, session.period);
   std::vector<haptics::KernelHand> hands;
   for (std::size_t h = 0; h < grips.size(); ++h)
     hands.push_back({grips[h].device, grips[h].part, started.fingers[h]});
-  if (audience != nullptr) {
-    std::vector<std::int64_t> devices;
-    for (const RecordedHand& hand : session.hands)
-      devices.push_back(hand.glove.device);
-    audience->begin(scene, session.choice, session.period, devices, started.models);
-  }
+  if (audience != nullptr) begin(*audience, scene, session, started);
   haptics::Replay replay(*started.simulation, hands, session.period, head_of(session));
 
-  ProgressBar progress("replay", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
   realtime::SteadyClock clock;
   const std::chrono::nanoseconds start = clock.now();
-  std::int64_t bytes = 0;
-  bool is_watched = true;
-  while (std::optional<devices::LogEvent> event = log.next()) {
-    bytes += std::ssize(event->message);
-    progress.update(bytes);
-    const auto state = audience != nullptr ? devices::haptic_state_of(*event) : std::nullopt;
-    if (!replay.take(std::move(*event))) break;
-    is_watched = !state || audience->take(*state);
-    if (!is_watched) break;
+  std::optional<RecordedSession> next = feed(log, replay, audience);
+  ++outcome.runs;
+  outcome.ticks += replay.ticks();
+  outcome.contact_sets += replay.answers();
+  outcome.recorded += replay.duration();
+  outcome.elapsed += clock.now() - start;
+  if (!replay.difference().empty()) {
+    const std::string run = outcome.runs > 1 ? "run " + std::to_string(outcome.runs) + ": " : "";
+    outcome.difference = run + replay.difference();
   }
-  log.damage().empty() && is_watched ? replay.finish() : replay.settle();
-  return {.ticks = replay.ticks(),
-          .contact_sets = replay.answers(),
-          .recorded = replay.duration(),
-          .elapsed = clock.now() - start,
-          .difference = replay.difference(),
-          // The log is read ahead: damage after the first difference is of no interest.
-          .damage = replay.difference().empty() ? log.damage() : ""};
+  return next;
+}
+
+}  // namespace
+
+ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file, ReplayAudience* audience) {
+  LogFile log(log_path, "replay");
+  ReplayOutcome outcome;
+  for (std::optional<RecordedSession> session = first_session(log); session;)
+    session = repeat(*session, log, scene_file, audience, outcome);
+  // The log is read ahead: damage after the first difference is of no interest.
+  if (outcome.difference.empty()) outcome.damage = log.damage();
+  return outcome;
 }
 
 }  // namespace glissade::apps

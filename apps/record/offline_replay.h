@@ -17,6 +17,7 @@ namespace glissade::apps {
 
 /// What came of it.
 struct ReplayOutcome {
+  std::int64_t runs = 0;                 ///< of the log, joined logs have several
   std::int64_t ticks = 0;                ///< that were repeated
   std::int64_t contact_sets = 0;         ///< that were repeated
   std::chrono::nanoseconds recorded{0};  ///< duration of these ticks then
@@ -32,8 +33,8 @@ class ReplayAudience {
  public:
   virtual ~ReplayAudience() = default;
 
-  /// Before the first tick: the scene, the rules that the user chose, the period of ticks, and each hand's glove and
-  /// model, which is null without fingers.
+  /// Before the first tick of each run: the scene, the rules that the user chose, the period of ticks, and each hand's
+  /// glove and model, which is null without fingers.
   virtual void begin(const HapticScene& scene, const SlidingChoice& choice, std::chrono::nanoseconds period,
                      const std::vector<std::int64_t>& devices,
                      const std::vector<std::shared_ptr<const grasping::HandModel>>& models) = 0;
@@ -41,10 +42,10 @@ class ReplayAudience {
   virtual bool take(const devices::HapticState& state) = 0;
 };
 
-/// Repeats the run of a log up to its end, the first difference or the first damage. The scene is that of `scene_file`,
-/// or the recorded one if the name is empty. `audience` may be null. Shows a progress bar. Throws
-/// std::invalid_argument, naming the file, for a log that does not begin with a session, and for a scene that cannot be
-/// read or is not the recorded one.
+/// Repeats the runs of a log, one after the other, up to its end, the first difference or the first damage. The scene
+/// is that of `scene_file`, or the recorded one if the name is empty. `audience` may be null. Shows a progress bar.
+/// Throws std::invalid_argument, naming the file, for a log without a run, and for a scene that cannot be read or is
+/// not the recorded one.
 ReplayOutcome replay_offline(const std::string& log_path, const std::string& scene_file, ReplayAudience* audience);
 
 }  // namespace glissade::apps

@@ -1,8 +1,7 @@
-#include <filesystem>
 #include <optional>
 #include <stdexcept>
 
-#include <glissade/apps/progress.h>
+#include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/recorded_moment.h>
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
@@ -18,15 +17,12 @@ std::string seconds_text(std::chrono::nanoseconds time) {
   return format_number(std::chrono::duration<double>(time).count()) + " s";
 }
 
-devices::HapticState state_after(std::chrono::nanoseconds after, devices::EventLogReader& log,
-                                 const std::string& log_path) {
-  ProgressBar progress("log", static_cast<std::int64_t>(std::filesystem::file_size(log_path)));
-  std::int64_t bytes = 0;
+/// In the run whose session has been read.
+devices::HapticState state_after(std::chrono::nanoseconds after, LogFile& log) {
   std::optional<std::chrono::nanoseconds> start;
   std::optional<devices::HapticState> last;
   while (const std::optional<devices::LogEvent> event = log.next()) {
-    bytes += std::ssize(event->message);
-    progress.update(bytes);
+    if (event->channel == kHapticSessionChannel) break;
     const std::optional<devices::HapticState> state = devices::haptic_state_of(*event);
     if (!state) continue;
     if (!start) start = state->time;
@@ -35,8 +31,8 @@ devices::HapticState state_after(std::chrono::nanoseconds after, devices::EventL
   }
   if (last && after <= last->time - *start) return *last;
   if (!log.damage().empty()) throw std::runtime_error(log.damage());
-  if (!last) throw std::invalid_argument(log_path + ": has no HAPTIC_STATE");
-  throw std::invalid_argument("--at: " + seconds_text(after) + " is beyond the log " + log_path + ", which lasts " +
+  if (!last) throw std::invalid_argument(log.path() + ": has no HAPTIC_STATE");
+  throw std::invalid_argument("--at: " + seconds_text(after) + " is beyond the log " + log.path() + ", which lasts " +
                               seconds_text(last->time - *start));
 }
 
@@ -46,10 +42,10 @@ viewer::ViewScene recorded_moment(const std::string& log_path, const std::string
                                   std::chrono::nanoseconds after) {
   if (after < std::chrono::nanoseconds(0))
     throw std::invalid_argument("--at: " + seconds_text(after) + " is before the log " + log_path + " begins");
-  devices::EventLogReader log(log_path);
-  const RecordedSession session = read_session(log, log_path);
+  LogFile log(log_path, "log");
+  const RecordedSession session = first_session(log);
   viewer::ViewScene scene = recorded_view(log_path, session, scene_file);
-  const devices::HapticState state = state_after(after, log, log_path);
+  const devices::HapticState state = state_after(after, log);
   for (viewer::ViewObject& object : scene.objects) {
     if (object.part) object.X_WB = state.parts.at(*object.part).X_WV;
   }

@@ -41,6 +41,7 @@ devices::LogEvent event_of(const RecordedSession& session) {
     hands.push_back({{"device", hand.glove.device}, {"part", part}, {"fingers", json_of(hand.fingers)}});
   }
   const std::optional<std::int64_t>& budget = session.rules.work_budget;
+  const std::optional<double>& stiffness = session.choice.stiffness_N_per_m;
   const nlohmann::json rules{{"max_cycles", session.rules.max_cycles},
                              {"contacts_ahead_ms", session.rules.contacts_ahead_ms},
                              {"affordable_pairs", session.rules.affordable_pairs},
@@ -50,6 +51,7 @@ devices::LogEvent event_of(const RecordedSession& session) {
                             {"scene_hash", hexadecimal(session.scene_hash)},
                             {"rules", rules},
                             {"metaphor", session.choice.metaphor},
+                            {"stiffness_N_per_m", stiffness ? nlohmann::json(*stiffness) : nlohmann::json(nullptr)},
                             {"friction", session.choice.friction},
                             {"spiral_search", session.choice.spiral_search},
                             {"depenetrate", session.choice.depenetrate},
@@ -72,6 +74,8 @@ RecordedSession session_of(const devices::LogEvent& event) {
   session.rules.affordable_pairs = rules.at("affordable_pairs");
   if (!rules.at("work_budget").is_null()) session.rules.work_budget = rules.at("work_budget").get<std::int64_t>();
   session.choice.metaphor = text.at("metaphor");
+  if (text.contains("stiffness_N_per_m") && !text.at("stiffness_N_per_m").is_null())  // older recordings have no choice
+    session.choice.stiffness_N_per_m = text.at("stiffness_N_per_m").get<double>();
   session.choice.friction = text.at("friction").get<std::vector<double>>();
   session.choice.spiral_search = text.at("spiral_search");
   session.choice.depenetrate = text.at("depenetrate");
@@ -103,30 +107,35 @@ haptics::RecordingHead head_of(const RecordedSession& session) {
   return head;
 }
 
-RecordedSession read_session(devices::EventLogReader& log, const std::string& path) {
-  const std::optional<devices::LogEvent> first = log.next();
-  if (!first || first->channel != kHapticSessionChannel) {
-    throw std::invalid_argument(path + ": does not begin with the channel " + kHapticSessionChannel +
-                                ", so the run cannot be repeated; 'glissade record' and 'glissade demo --record' "
-                                "write what can");
-  }
+RecordedSession read_session(const devices::LogEvent& event, LogFile& log) {
   RecordedSession session;
   try {
-    session = session_of(*first);
+    session = session_of(event);
   } catch (const std::exception&) {
-    throw std::invalid_argument(path + ": the first event, on " + kHapticSessionChannel +
-                                ", cannot be read: its bytes were changed, or another version wrote it");
+    throw std::invalid_argument(log.path() + ": the event on " + kHapticSessionChannel +
+                                " cannot be read: its bytes were changed, or another version wrote it");
   }
   for (RecordedHand& hand : session.hands) {
-    const std::optional<devices::LogEvent> event = log.next();
-    const std::optional<devices::GloveInfo> glove = event ? devices::glove_info_of(*event) : std::nullopt;
+    const std::optional<devices::LogEvent> announcement = log.next();
+    const std::optional<devices::GloveInfo> glove = announcement ? devices::glove_info_of(*announcement) : std::nullopt;
+    if (!announcement && !log.damage().empty()) throw std::runtime_error(log.damage());
     if (!glove || glove->device != hand.glove.device) {
-      throw std::invalid_argument(path + ": the announcement of glove " + std::to_string(hand.glove.device) +
-                                  " is missing at the beginning");
+      throw std::invalid_argument(log.path() + ": the announcement of glove " + std::to_string(hand.glove.device) +
+                                  " is missing at the beginning of the run");
     }
     hand.glove = *glove;
   }
   return session;
+}
+
+RecordedSession first_session(LogFile& log) {
+  while (const std::optional<devices::LogEvent> event = log.next()) {
+    if (event->channel == kHapticSessionChannel) return read_session(*event, log);
+  }
+  if (!log.damage().empty()) throw std::runtime_error(log.damage());
+  throw std::invalid_argument(log.path() + ": has nothing on the channel " + kHapticSessionChannel +
+                              ", so it cannot be repeated; 'glissade record' and 'glissade demo --record' write what "
+                              "can");
 }
 
 }  // namespace glissade::apps

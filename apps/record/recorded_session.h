@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
+#include <glissade/apps/record/log_file.h>
 #include <glissade/apps/scene/sliding_option.h>
-#include <glissade/devices/event_log.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/haptic_kernel.h>
@@ -19,7 +19,7 @@
 
 namespace glissade::apps {
 
-/// The channel of the first event. Its message is a JSON text, whose keys docs/file_formats.md describes.
+/// The channel of the first event of a run. Its message is a JSON text, whose keys docs/file_formats.md describes.
 inline constexpr const char* kHapticSessionChannel = "HAPTIC_SESSION";
 
 /// A glove, and the part that its hand took at the first state.
@@ -45,8 +45,12 @@ std::string recorded_path(const std::string& scene_file);
 /// The head of a recording: the session, then the announcement of each glove.
 haptics::RecordingHead head_of(const RecordedSession& session);
 
-/// The session of a log, from its first events. Throws std::invalid_argument, naming the file, when the log does not
-/// begin with a session.
-RecordedSession read_session(devices::EventLogReader& log, const std::string& path);
+/// The session of a run, of which joined logs have several: that of `event`, and the announcements of its gloves, which
+/// follow it in the log. Throws std::invalid_argument, naming the file, for a session that cannot be read, and
+/// std::runtime_error where the log is damaged.
+RecordedSession read_session(const devices::LogEvent& event, LogFile& log);
+
+/// Reads up to the first run of a log. Throws as `read_session`, and std::invalid_argument when there is no run.
+RecordedSession first_session(LogFile& log);
 
 }  // namespace glissade::apps

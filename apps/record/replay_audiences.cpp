@@ -12,6 +12,8 @@ namespace glissade::apps {
 void ReplayView::begin(const HapticScene& scene, const SlidingChoice& /*choice*/, std::chrono::nanoseconds /*period*/,
                        const std::vector<std::int64_t>& devices,
                        const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
+  start_.reset();
+  server_.reset();  // that of the run before has the port
   server_ = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), models), port_);
   say("glissade replay: open " + server_->url() + " in a browser: then it starts");
   while (!server_->has_had_client() && !StopSignal::requested())
@@ -37,6 +39,7 @@ void ReplayReport::begin(const HapticScene& scene, const SlidingChoice& choice, 
                          const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
   const auto minute = static_cast<std::size_t>(std::chrono::minutes(1) / period);
   scene_ = scene;
+  session_ = {};
   samples_ = std::make_shared<SessionRecorder>(minute, scene.parts.size() + scene.moving.size(), devices.size());
   session_.choice = choice;
   session_.period = period;

@@ -15,7 +15,7 @@
 
 namespace glissade::apps {
 
-/// Shows the run at the pace at which it was recorded, once the first page looks on.
+/// Shows each run at the pace at which it was recorded, once a page looks on.
 class ReplayView final : public ReplayAudience {
  public:
   explicit ReplayView(std::uint16_t port) : port_(port) {}
@@ -32,7 +32,7 @@ class ReplayView final : public ReplayAudience {
   std::chrono::nanoseconds first_{0};  // time of the first state
 };
 
-/// Keeps the last minute for a report as that of the run itself.
+/// Keeps the last minute of the last run for a report as that of the run itself.
 class ReplayReport final : public ReplayAudience {
  public:
   explicit ReplayReport(std::string title) : title_(std::move(title)) {}

@@ -1,21 +1,14 @@
 #include <exception>
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
 
-#include <glissade/apps/files/input_files.h>
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/run_recorders.h>
 
 namespace glissade::apps {
 
 void validate(const RecordSettings& settings) {
-  for (const std::string& path : {settings.log, settings.flight}) {
-    if (path.empty()) continue;
-    refuse_input(path);
-    const bool is_new = !std::filesystem::exists(path);
-    if (!std::ofstream(path, std::ios::app)) throw std::invalid_argument(path + ": cannot be created");
-    if (is_new) std::filesystem::remove(path);
-  }
+  constexpr bool kTakesAFreeName = true;
+  if (!settings.log.empty()) check_recording(settings.log, settings.overwrites);
+  if (!settings.flight.empty()) check_recording(settings.flight, kTakesAFreeName);
 }
 
 RunRecorders::RunRecorders(const RecordSettings& settings, const RecordedSession& session) {

@@ -15,12 +15,13 @@ namespace glissade::apps {
 
 /// Files that a run writes; an empty name: none.
 struct RecordSettings {
-  std::string log;         ///< all of the run
-  std::string flight;      ///< the last seconds, after a fault or on request
-  std::string scene_file;  ///< of the run; empty: the car door of the demonstration
+  std::string log;          ///< all of the run
+  bool overwrites = false;  ///< the log may take the place of an older file
+  std::string flight;       ///< the last seconds, after a fault or on request
+  std::string scene_file;   ///< of the run; empty: the car door of the demonstration
 };
 
-/// Throws std::invalid_argument, naming the file, when one of them cannot be created. Leaves no file behind.
+/// Throws std::invalid_argument, naming the file, when one of them cannot be written: see `check_recording`.
 void validate(const RecordSettings& settings);
 
 class RunRecorders {

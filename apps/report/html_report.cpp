@@ -9,6 +9,7 @@
 #include <sodium.h>
 #include <unistd.h>
 
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/text.h>
 #include <glissade/viewer/page.h>
@@ -156,6 +157,10 @@ std::string html_report(const Report& report) {
          "</h1>\n" + summary + plots + "</main>\n</body>\n</html>\n";
 }
 
+std::string report_page(const std::string& folder) {
+  return folder.empty() ? "" : (std::filesystem::path(folder) / "index.html").string();
+}
+
 void prepare_report_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::path path(folder);
@@ -169,13 +174,13 @@ void prepare_report_folder(const std::string& folder) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) {
     throw std::invalid_argument(folder + ": nothing can be written there: " + std::generic_category().message(errno));
   }
+  check_output(report_page(folder));
 }
 
 std::string write_html_report(const Report& report, const std::string& folder) {
   prepare_report_folder(folder);
-  std::string path = (std::filesystem::path(folder) / "index.html").string();
-  std::ofstream file(path, std::ios::binary);
-  if (!file) throw std::invalid_argument(path + ": cannot be written: " + std::generic_category().message(errno));
+  std::string path = report_page(folder);
+  std::ofstream file = open_output(path);
   file << html_report(report) << std::flush;
   if (!file) throw std::runtime_error(path + ": not everything could be written");
   return path;

@@ -32,9 +32,12 @@ struct Report {
 /// The page as HTML; texts are plain text and escaped here.
 std::string html_report(const Report& report);
 
+/// The page in this folder; empty without a folder.
+std::string report_page(const std::string& folder);
+
 /// Creates `folder` if necessary. Call it before a run, so that no run ends without a place for its report.
 /// Throws std::invalid_argument, naming the folder, when it cannot be created or is not writable, or is no folder and
-/// is named as a page (.html).
+/// is named as a page (.html), and as `check_output` does for the page.
 void prepare_report_folder(const std::string& folder);
 
 /// Writes the page to `folder`/index.html, creates the folder if necessary, and returns that path.

@@ -8,6 +8,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/machine_check.h>
 #include <glissade/apps/text.h>
@@ -57,7 +58,10 @@ std::shared_ptr<devices::LcmBus> open_bus(const LcmAddress& address) {
                                 "' connects threads of one process only; server and glove need a udpm:// address");
   }
   std::optional<devices::LcmKey> key;
-  if (!address.key_file.empty()) key = devices::read_lcm_key(address.key_file);
+  if (!address.key_file.empty()) {
+    check_input(address.key_file);
+    key = devices::read_lcm_key(address.key_file);
+  }
   return connect_to_lcm(address.url, key);
 }
 

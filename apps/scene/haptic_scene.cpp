@@ -158,12 +158,13 @@ std::vector<std::string> movable_objects(const Scene& scene) {
   throw std::invalid_argument(scene.source + ": no object is movable; a hand needs a part to hold ('movable: true')");
 }
 
-std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, haptics::Metaphor metaphor) {
+std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, const SlidingChoice& choice) {
   std::vector<haptics::HeldPart> parts;
   for (const ScenePart& part : scene.parts) {
     parts.push_back({.part_V = part.part_V,
                      .X_WV_start = part.X_WV_start,
-                     .metaphor = metaphor,
+                     .metaphor = metaphor_of(choice),
+                     .stiffness = stiffness_of(choice, part.part_V->radius()),
                      .name = "object " + in_quotes(part.name)});
   }
   for (const haptics::ScriptedPart& part : scene.moving)

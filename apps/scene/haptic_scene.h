@@ -11,6 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/scene/sliding_option.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/reference/grid_check.h>
 #include <glissade/viewer/view_scene.h>
@@ -53,9 +54,9 @@ std::vector<viewer::ViewObject> shown_objects(const Scene& scene, const std::vec
 /// The names of the movable objects. Throws std::invalid_argument, naming the scene, when there is none.
 std::vector<std::string> movable_objects(const Scene& scene);
 
-/// All parts of a simulation: first those that hands can hold, with this metaphor, then the objects that move on their
+/// All parts of a simulation: first those that hands can hold, as chosen, then the objects that move on their
 /// own.
-std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, haptics::Metaphor metaphor);
+std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, const SlidingChoice& choice);
 
 /// Throws std::invalid_argument, naming scene and object, when the name of an obstacle or a moving object does not fit
 /// into a cell of a CSV file.

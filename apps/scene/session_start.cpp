@@ -15,8 +15,7 @@ namespace glissade::apps {
 namespace {
 
 void soften(haptics::HeldPart& part, const devices::DeviceDescriptor& device, std::chrono::nanoseconds period) {
-  const haptics::CouplingStiffness wanted = part.stiffness.value_or(haptics::default_stiffness(part.part_V->radius()));
-  part.stiffness = coupling_for(device, wanted, period).stiffness;
+  part.stiffness = coupling_for(device, part.stiffness.value(), period).stiffness;
 }
 
 /// Hands of one shape share their model.
@@ -34,19 +33,20 @@ std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const std::vec
 
 }  // namespace
 
-std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chrono::nanoseconds period) {
+std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
+                                        std::chrono::nanoseconds period) {
   std::vector<std::string> sentences;
-  const haptics::CouplingStiffness usual = haptics::default_stiffness(1.0);
+  const haptics::CouplingStiffness wanted = stiffness_of(choice, 1.0);
   for (const Grip& grip : grips) {
-    const double stiffness = coupling_for(grip.device, usual, period).stiffness.translational;
+    const double stiffness = coupling_for(grip.device, wanted, period).stiffness.translational;
     constexpr double kNearly = 1.0 - 1e-3;
-    if (stiffness >= kNearly * usual.translational) continue;
+    if (stiffness >= kNearly * wanted.translational) continue;
     const std::string reason =
         stiffness >= kNearly * grip.device.max_stiffness
             ? "its largest stiffness"
             : "the largest that is passive with the damping, friction, resolution and delay that it tells";
     const std::string sentence = "device " + in_quotes(grip.device.name) + ": contacts have " +
-                                 rounded_text(stiffness) + " N/m instead of " + rounded_text(usual.translational) +
+                                 rounded_text(stiffness) + " N/m instead of " + rounded_text(wanted.translational) +
                                  ": " + reason;
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   }
@@ -56,7 +56,7 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chr
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
                                    const SlidingChoice& choice, const haptics::SlidingRules& rules,
                                    std::chrono::nanoseconds period) {
-  std::vector<haptics::HeldPart> parts = held_parts(scene, metaphor_of(choice));
+  std::vector<haptics::HeldPart> parts = held_parts(scene, choice);
   const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
   for (const Grip& grip : grips) {
     if (grip.fingers.has_value() != has_fingers) throw std::invalid_argument("either all hands have fingers, or none");

@@ -32,11 +32,12 @@ struct StartedSimulation {
   std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
 };
 
-/// The devices among these with which contacts are softer than usual, each in a sentence with the reason. The delay of
+/// The devices among these with which contacts are softer than chosen, each in a sentence with the reason. The delay of
 /// a link does not count.
-std::vector<std::string> softer_devices(const std::vector<Grip>& grips, std::chrono::nanoseconds period);
+std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
+                                        std::chrono::nanoseconds period);
 
-/// Starts the simulation. A part has its default stiffness, lowered to the limits of all devices: each may come to hold
+/// Starts the simulation. A part has the chosen stiffness, lowered to the limits of all devices: each may come to hold
 /// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
 /// that starts inside another object, with how deep it is and what can be done.
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,

@@ -12,6 +12,10 @@ namespace glissade::apps {
 void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
   command.add_option("--metaphor", choice.metaphor, "Metaphor, the rule by which the hand moves the part, see below")
       ->capture_default_str();
+  command
+      .add_option("--stiffness", choice.stiffness_N_per_m,
+                  "Stiffness of the coupling of hand and part in N/m, 10 to 100000; default: 1000")
+      ->check(positive());
   command.add_option("--friction", choice.friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
       ->expected(1, 2)
       ->check(not_negative());
@@ -29,7 +33,20 @@ haptics::Metaphor metaphor_of(const SlidingChoice& choice) {
       joined(haptics::kMetaphorNames));
 }
 
+haptics::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius) {
+  const haptics::CouplingStiffness usual = haptics::default_stiffness(radius);
+  if (!choice.stiffness_N_per_m) return usual;
+  const double factor = *choice.stiffness_N_per_m / usual.translational;
+  return {*choice.stiffness_N_per_m, factor * usual.rotational};
+}
+
 haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice) {
+  constexpr double kSoftest_N_per_m = 10.0;
+  constexpr double kStiffest_N_per_m = 1e5;
+  const double stiffness = choice.stiffness_N_per_m.value_or(kSoftest_N_per_m);
+  if (!(stiffness >= kSoftest_N_per_m && stiffness <= kStiffest_N_per_m)) {
+    throw std::invalid_argument("--stiffness: must lie between 10 and 100000 N/m, not " + format_number(stiffness));
+  }
   rules.friction.sliding = choice.friction.empty() ? 0.0 : choice.friction.front();
   rules.friction.at_rest = choice.friction.empty() ? 0.0 : choice.friction.back();
   if (rules.friction.at_rest < rules.friction.sliding) {
@@ -41,12 +58,14 @@ haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoi
   return rules;
 }
 
-std::string words_of(const haptics::SlidingRules& rules) {
+std::string words_of(const SlidingChoice& choice) {
+  const haptics::SlidingRules rules = with_choice({}, choice);
   const haptics::Friction& friction = rules.friction;
   std::string words = friction.is_on() ? "friction " + format_number(friction.sliding) : "no friction";
   if (friction.at_rest != friction.sliding) words += ", at rest " + format_number(friction.at_rest);
   if (rules.spiral_search) words += "; spiral search";
   if (rules.overlap == haptics::OverlapRule::kDepenetrate) words += "; depenetrate";
+  if (choice.stiffness_N_per_m) words += "; " + format_number(*choice.stiffness_N_per_m) + " N/m";
   return words;
 }
 

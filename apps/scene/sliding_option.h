@@ -1,10 +1,12 @@
 #pragma once
 
-/// The options --metaphor, --friction, --spiral-search and --depenetrate of the commands that move parts.
+/// The options --metaphor, --stiffness, --friction, --spiral-search and --depenetrate of the commands that move parts.
 
+#include <optional>
 #include <string>
 #include <vector>
 
+#include <glissade/haptics/coupling.h>
 #include <glissade/haptics/sliding_rules.h>
 
 namespace CLI {
@@ -15,7 +17,8 @@ namespace glissade::apps {
 
 struct SlidingChoice {
   std::string metaphor = "force-feedback";
-  std::vector<double> friction;  ///< none, one for both, or sliding and at rest
+  std::optional<double> stiffness_N_per_m;  ///< of the coupling against translation; none: the usual one
+  std::vector<double> friction;             ///< none, one for both, or sliding and at rest
   bool spiral_search = false;
   bool depenetrate = false;
 
@@ -33,6 +36,10 @@ inline constexpr const char* kSlidingChoiceHelp =
     "  rubber-band-spring  a rubber band and a spiral spring tie the part to the ghost; the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost; motion that contacts prevent is lost\n"
     "\n"
+    "Stiffness: the hand feels a part that cannot follow as a spring of 1000 N/m, or of --stiffness, from 10 to\n"
+    "100000 N/m. Against rotation it is this times the square of the part's radius. With a device it is never stiffer\n"
+    "than what the device can render without shaking, and a softer one is told.\n"
+    "\n"
     "Rules:\n"
     "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
     "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
@@ -42,11 +49,13 @@ inline constexpr const char* kSlidingChoiceHelp =
 
 void add_sliding_options(CLI::App& command, SlidingChoice& choice);
 
+/// The wanted coupling of a part of this radius (metres).
+haptics::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius);
 /// Throws std::invalid_argument, naming the option.
 haptics::Metaphor metaphor_of(const SlidingChoice& choice);
 /// `rules` with the choice of the user. Throws std::invalid_argument, naming the option.
 haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice);
-/// What a page says of rules that a user may choose: "friction 0.2, at rest 0.3; spiral search", or "no friction".
-std::string words_of(const haptics::SlidingRules& rules);
+/// What a page says of a choice: "friction 0.2, at rest 0.3; spiral search; 500 N/m", or "no friction".
+std::string words_of(const SlidingChoice& choice);
 
 }  // namespace glissade::apps

@@ -8,7 +8,9 @@
 #include <glissade/apps/record/dump_signal.h>
 #include <glissade/apps/run/machine_check.h>
 #include <glissade/apps/run/run_watch.h>
+#include <glissade/apps/run/second_glove.h>
 #include <glissade/apps/run/session_sink.h>
+#include <glissade/apps/say.h>
 #include <glissade/apps/scene/scene_hash.h>
 #include <glissade/apps/scene/session_start.h>
 #include <glissade/apps/session/haptic_session.h>
@@ -83,6 +85,19 @@ void check_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period) 
                               ", not " + text_us(spin));
 }
 
+/// That this glove is silent while others send, which the run does not use; empty if there are none.
+std::string told_silence(std::int64_t device, const std::vector<SessionHand>& hands,
+                         const devices::GloveSearch& search) {
+  std::string others;
+  for (const std::int64_t heard : search.heard()) {
+    if (std::any_of(hands.begin(), hands.end(), [heard](const SessionHand& hand) { return hand.device == heard; }))
+      continue;
+    others += (others.empty() ? "" : ", ") + std::to_string(heard);
+  }
+  if (others.empty()) return "";
+  return "glove " + std::to_string(device) + " is silent, but there are other gloves (--device): " + others;
+}
+
 /// The announcements of all gloves of a run; fewer if it is stopped before.
 std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::LcmBus>& bus,
                                                 const std::vector<SessionHand>& hands,
@@ -90,10 +105,20 @@ std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::L
                                                 const std::function<void(const RunNews&)>& watch) {
   devices::GloveSearch search(bus);  // one for all: an announcement is heard whenever it comes
   std::vector<devices::GloveInfo> infos;
+  constexpr int kPatientTurns = 10;  // a second
+  int turns = 0;
+  bool has_told = false;
   while (infos.size() < hands.size() && !should_stop()) {
     const std::int64_t device = hands[infos.size()].device;
     watch({.awaited_device = device});
-    if (auto info = search.wait_for(device, std::chrono::milliseconds(100))) infos.push_back(std::move(*info));
+    if (auto info = search.wait_for(device, std::chrono::milliseconds(100))) {
+      infos.push_back(std::move(*info));
+      turns = 0;
+    } else if (++turns >= kPatientTurns && !has_told) {
+      const std::string silence = told_silence(device, hands, search);
+      has_told = !silence.empty();
+      if (has_told) watch({.sentences = {silence}});
+    }
   }
   return infos;
 }
@@ -137,6 +162,8 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
   }
   StartedSimulation started = start_simulation(scene, {grip}, choice, {});
   validate(record);
+  for (const std::string& sentence : softer_devices({grip}, choice, haptics::kTickPeriod))
+    say("glissade: " + sentence);
   const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   std::optional<haptics::LogRecorder> log;
@@ -161,6 +188,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   start_simulation(scene, {}, settings.choice, {});  // errors come before waiting
   validate(settings.record);
   if (settings.period) check_spin(settings.spin, *settings.period);
+  if (settings.view_port) viewer::ViewServer({}, *settings.view_port);  // throws if the port is taken
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
   std::vector<Grip> grips;
   std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
@@ -180,7 +208,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   const double most_s = settings.seconds + settings.longer_s;
   const std::int64_t ticks = std::llround(most_s / std::chrono::duration<double>(period).count());
   StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
-  watch({.sentences = softer_devices(grips, period)});
+  watch({.sentences = softer_devices(grips, settings.choice, period)});
   const haptics::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
                                                           sliding.part_count(), settings.hands.size());
@@ -208,11 +236,17 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
       {.period = period, .ticks = ticks, .spin = settings.spin, .observer = recorders.observer()});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
+  std::vector<SecondGlove> second_gloves(gloves.size());
   const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
   if (!missing.empty()) watch({.sentences = {missing}});
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     RunWatch::News news = run_watch.news(server.late_ticks());
+    for (std::size_t h = 0; h < gloves.size(); ++h) {
+      if (!second_gloves[h].appears_in(gloves[h]->statistics())) continue;
+      news.events.push_back("a second glove sends as glove " + std::to_string(numbers[h]) +
+                            ", and is not heard: give it another --device");
+    }
     for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
       news.events.push_back(std::move(sentence));
     watch({.ticks = server.ticks(), .sentences = std::move(news.events), .status = std::move(news.status)});

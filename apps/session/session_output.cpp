@@ -162,9 +162,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
 }
 
 Rows rule_rows(const Session& session, const HapticScene& scene) {
-  return {{"scene", scene.source},
-          {"metaphor", session.choice.metaphor},
-          {"rules", words_of(with_choice({}, session.choice))}};
+  return {{"scene", scene.source}, {"metaphor", session.choice.metaphor}, {"rules", words_of(session.choice)}};
 }
 
 double seconds_of_tick(const SessionRecorder& samples, std::size_t i) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <glissade/devices/safety_envelope.h>
 
@@ -14,16 +16,23 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kMostEnergy_m = 0.25;  // times the largest force
-constexpr double kLeastScale = 0.2;     // where all energy is gone: with less, the hand could give none
+constexpr double kLeastScale = 0.2;     // where all energy is gone: the rest shrinks with what is left
 constexpr double kScaleFall_s = 0.03;
 constexpr double kScaleRise_s = 0.3;
-constexpr double kReserve_J = 0.005;     // not given away, because the rates come after this limit
-constexpr double kRecovery_W = 0.1;      // without a force, up to the energy at the start
+constexpr double kReserve_J = 0.005;  // not given away, because the rates come after this limit
+constexpr double kFall_J = 0.05;      // of a spring that falls from the largest force to zero
+constexpr double kRecovery_W = 0.1;
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
 constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr double kStir_s = 0.5;
-constexpr double kMostStirred_J = 0.01;  // from which a contact is not calm
-constexpr double kCalmRefill_W = 0.1;
+constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is not calm
+constexpr double kCalmRefill_W = 0.2;
+constexpr double kForgotten_s = 1.0;
+
+/// The norm by the largest one; 0 where there is none.
+double share_of_largest(const Eigen::Vector3d& vector, double largest) noexcept {
+  return largest > 0.0 ? vector.norm() / largest : 0.0;
+}
 
 double time_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
   return vector.isZero(0.0) ? 0.0 : vector.norm() / rate;
@@ -43,24 +52,48 @@ void SafetyEnvelope::observe_work(const GloveState& state) noexcept {
   const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
   const Eigen::Vector3d turned = turn_between(state_.X_WH.linear(), state.X_WH.linear());
   const double work = (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_;
-  energy_ = std::min(energy_ - work, most_energy());
-  stirred_ += std::abs(work);
+  book(-work);
+}
+
+void SafetyEnvelope::book(double change) noexcept {
+  energy_ = std::min(energy_ + change, most_energy());
+  // No more than that counts, so that a contact is calm soon after a great stroke.
+  double& stirred = change > 0.0 ? came_ : went_;
+  stirred = std::min(stirred + std::abs(change), kMostStirred_J);
 }
 
 double SafetyEnvelope::most_energy() const noexcept {
   return std::max(kStartEnergy_J, kMostEnergy_m * descriptor_.max_force);
 }
 
-void SafetyEnvelope::take_supply(const GloveCommand& wanted, double dt) noexcept {
-  // Another sender counts from another beginning.
-  if (supply_sequence_ == 0 || wanted.sequence < supply_sequence_) supply_ = wanted.supply;
-  supply_sequence_ = wanted.sequence;
-  const double most = descriptor_.max_power * dt;
-  const double step = std::clamp(wanted.supply - supply_, -most, most);
-  supply_ += step;
-  // What was taken stays owed when there is nothing left: the other side has it.
-  energy_ = std::clamp(energy_ + step, -most_energy(), most_energy());
-  stirred_ += std::abs(step);
+void SafetyEnvelope::take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept {
+  // Another sender counts from another beginning, and so does one that was not heard for a while.
+  const bool goes_on = told_supply_ && wanted.session == told_session_ && wanted.sequence >= told_sequence_;
+  double change = goes_on ? std::clamp(wanted.supply - *told_supply_, -most_energy(), most_energy()) : 0.0;
+  // What pushed with a force that was cut has done so much less.
+  if (change > 0.0) change = std::min(exerted_ * change, descriptor_.max_power * dt);
+  if (!goes_on) owed_ = taken_ = 0.0;
+  told_supply_ = is_fading ? std::nullopt : std::optional(wanted.supply);
+  told_sequence_ = wanted.sequence;
+  told_session_ = wanted.session;
+
+  supply_ += change;
+  owed_ -= change;
+  if (owed_ < 0.0) book(-std::exchange(owed_, 0.0));
+  const double taken = std::clamp(energy_ - kStartEnergy_J, 0.0, owed_);
+  energy_ -= taken;
+  taken_ += taken;
+  owed_ = (owed_ - taken) * (1.0 - std::min(1.0, dt / kForgotten_s));
+}
+
+/// Force and torque count by their largest values.
+void SafetyEnvelope::observe_share(const Forces& exerted) noexcept {
+  const auto weight = [](double largest) { return largest > 0.0 ? 1.0 / (largest * largest) : 0.0; };
+  const double of_f = weight(descriptor_.max_force);
+  const double of_t = weight(descriptor_.max_torque);
+  const double given = of_f * exerted.f.dot(wanted_.f) + of_t * exerted.t.dot(wanted_.t);
+  const double whole = of_f * wanted_.f.squaredNorm() + of_t * wanted_.t.squaredNorm();
+  exerted_ = whole > 0.0 && std::isfinite(whole) ? std::clamp(given / whole, 0.0, 1.0) : 0.0;
 }
 
 /// What was given or kept in a contact is settled when there is no force any more. While the force returns from an
@@ -70,33 +103,45 @@ void SafetyEnvelope::take_supply(const GloveCommand& wanted, double dt) noexcept
 void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) noexcept {
   refill_ = std::min(kMostRefill_J, refill_ + kRecovery_W * dt);
   if (gain_ < 1.0) free_until_ = now + kReturnIsFree;
-  stirred_ -= std::min(1.0, dt / kStir_s) * stirred_;
-  const double calm = std::max(0.0, 1.0 - stirred_ / kMostStirred_J);
+  const double kept = 1.0 - std::min(1.0, dt / kStir_s);
+  came_ *= kept;
+  went_ *= kept;
+  // A force that comes back and slowly moves the hand is no oscillation.
+  const double calm = std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
   if (energy_ < kStartEnergy_J) {
-    const double most = now < free_until_ ? refill_ : std::min(refill_, calm * kCalmRefill_W * dt);
+    const double recovery = has_force ? calm * kCalmRefill_W : kRecovery_W;
+    const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(kStartEnergy_J - energy_, most);
     refill_ -= refilled;
     energy_ += refilled;
   }
-  if (!has_force) energy_ = std::min(kStartEnergy_J, energy_ + kRecovery_W * dt);
+  if (!has_force) energy_ = std::min(kStartEnergy_J, energy_);
 }
 
 // A glove behind a link has an envelope of its own, which knows the motion without delay.
 //
-// The wrench shrinks smoothly with the energy that is left. A scale that followed the motion would switch on and off: a
-// hand at rest must find the same force from tick to tick. What remains to be cut at once is small.
+// The wrench shrinks smoothly with the energy that is left. What remains is a share c of the wrench: if it goes on for
+// a while at the present velocity, and then falls as a spring's, it gives just what is left,
+//   c · (work of going on) + c² · (work of the fall) = energy left.
+// A hand at rest finds the same force from tick to tick, however its velocity trembles: near zero energy the fall alone
+// counts, and c goes as the root of the energy, as the force of a spring does.
 void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept {
   if (state_.link_delay > nanoseconds(0)) return;
   const double left = std::clamp(energy_ / kStartEnergy_J, 0.0, 1.0);
   const double target = kLeastScale + (1.0 - kLeastScale) * left * left * (3.0 - 2.0 * left);
   energy_scale_ += std::clamp(target - energy_scale_, -dt / kScaleFall_s, dt / kScaleRise_s);
-  double scale = energy_scale_;
+  const double size = energy_scale_ * std::max(share_of_largest(forces.f, descriptor_.max_force),
+                                               share_of_largest(forces.t, descriptor_.max_torque));
+  const double fall = kFall_J * size * size;
   // A device whose rates are low goes on giving while its force falls.
   const double ahead_s = std::max(
       {kEnergyPeriods * in_seconds(period_), time_to_zero(last_.f, force_rate_), time_to_zero(last_.t, torque_rate_)});
-  const double work = ahead_s * scale * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
+  const double power = energy_scale_ * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
+  const double going_on = ahead_s * std::max(0.0, power);
   const double available = std::max(0.0, energy_ - kReserve_J);
-  if (work > available) scale *= available / work;
+  const double root = going_on + std::sqrt(going_on * going_on + 4.0 * fall * available);
+  const double share = available > 0.0 ? std::min(1.0, 2.0 * available / root) : 0.0;
+  const double scale = energy_scale_ * share;
   if (scale >= 1.0) return;
   forces.f *= scale;
   forces.t *= scale;

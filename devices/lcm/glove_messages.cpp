@@ -28,6 +28,7 @@ MessageError check(const glove_state_t& message) noexcept {
   fields.magnitude(message.joint_angles_rad, kLargestAngle);
   fields.time(message.link_delay_ns);
   fields.magnitude(message.energy_J, kLargestEnergy);
+  fields.magnitude(message.taken_J, kLargestEnergy);
   return fields.result();
 }
 
@@ -119,6 +120,7 @@ std::vector<std::uint8_t> encode(const StateHeader& header, const GloveState& st
   message.reasons = to_bits(state.limits);
   message.link_delay_ns = state.link_delay.count();
   message.energy_J = state.energy;
+  message.taken_J = state.taken.value_or(0.0);
   message.command_age_ns = state.command_age.count();
   return to_bytes(message);
 }
@@ -185,6 +187,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   state.limits = limit_reasons_from_bits(message.reasons);
   state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
   state.energy = message.energy_J;
+  state.taken = message.taken_J;
   state.command_age = std::chrono::nanoseconds(message.command_age_ns);
   return MessageError::kNone;
 }
@@ -198,6 +201,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, 
   if (error != MessageError::kNone) return error;
   header = {message.device, message.glove_session, message.session};
   command.state_time = std::chrono::nanoseconds(message.state_time_ns);
+  command.session = message.session;
   command.sequence = message.sequence;
   command.state_sequence = message.state_sequence;
   command.time = std::chrono::nanoseconds(message.time_ns);

@@ -25,4 +25,12 @@ std::optional<GloveInfo> GloveSearch::wait_for(std::int64_t device, std::chrono:
   return found == found_.end() ? std::nullopt : std::optional(found->second);
 }
 
+std::vector<std::int64_t> GloveSearch::heard() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::int64_t> numbers;
+  for (const auto& [device, info] : found_)
+    numbers.push_back(device);
+  return numbers;
+}
+
 }  // namespace glissade::devices

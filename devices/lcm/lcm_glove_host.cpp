@@ -44,6 +44,7 @@ bool LcmGloveHost::publish(const GloveState& state) {
   told.command_age = last_.age();
   told.link_delay = envelope_.link_delay();
   told.energy = last_.energy();
+  told.taken = last_.taken();
   return bus_->publish(kGloveStateChannel, encode(header, told));
 }
 

@@ -160,19 +160,20 @@ void ContactProjection::add_push(std::size_t row_number, double push, const Coup
     const geometry::Displacement& way = way_[static_cast<std::size_t>(part)];
     return row.n.dot(way.v + way.w.cross(r));
   };
-  const auto add = [&](std::int32_t part, const Eigen::Vector3d& r, const Eigen::Vector3d& f, double supply) {
+  const auto add = [&](std::int32_t part, const Eigen::Vector3d& r, const Eigen::Vector3d& f, double from_hands) {
     const auto p = static_cast<std::size_t>(part);
     contacts_[p].wrench.f += f;
     contacts_[p].wrench.t += r.cross(f);
-    contacts_[p].supply += supply;
+    contacts_[p].from_hands += from_hands;
     pushes_[p] += push;
     known_pushes_[p] += known;
   };
   const Eigen::Vector3d f = push * (row.n + row.friction_ratio_W);
   const bool is_coupled = acts(row.part) && acts(row.other);
   if (acts(row.part)) {
-    const double other_way = is_coupled ? way_of(row.other, row.r_other) : rows_[numbers_[row_number]].way;
-    add(row.part, row.r, f, push * other_way);
+    add(row.part, row.r, f, is_coupled ? push * way_of(row.other, row.r_other) : 0.0);
+    if (!is_coupled)
+      contacts_[static_cast<std::size_t>(row.part)].from_movers += push * rows_[numbers_[row_number]].way;
   }
   if (acts(row.other)) add(row.other, row.r_other, -f, is_coupled ? -push * way_of(row.part, row.r) : 0.0);
 }

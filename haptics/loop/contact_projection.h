@@ -34,7 +34,8 @@ struct PartContacts {
   Wrench wrench;             ///< on the hands, about the part's reference point
   double known = 1.0;        ///< share of the force whose rows are known to hold where the projection is
   bool is_unsolved = false;  ///< the rows have no solution, and there is no wrench
-  double supply = 0.0;       ///< J: work on the part since the last call of bodies that move without its hands
+  double from_hands = 0.0;   ///< J: work on the part since the last call of parts in other hands
+  double from_movers = 0.0;  ///< J: the same of bodies that move without a hand
 };
 
 /// The wanted displacements of the parts are projected on the rows of the set, those of parts in contact with each

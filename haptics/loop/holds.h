@@ -58,8 +58,6 @@ class Holds {
   /// The hand's share of the contacts' wrench, and the pull of the other hands on it, about the part's reference point.
   Wrench on_hand(std::size_t hand, const Wrench& contacts) const;
   Wrench pull_on(std::size_t hand) const { return hands_[hand].pull; }
-  /// Work (J) of the other hands on this one in the last tick, by a pull on it.
-  double supply_of_pull(std::size_t hand, const Wrench& pull) const { return -work_against(hand, pull); }
   /// Work (J) of the hand in the last tick against a wrench on it about the reference point of the part that it holds.
   double work_against(std::size_t hand, const Wrench& wrench) const;
   /// The hand's share of the energy that the part's contacts supply.

@@ -23,6 +23,7 @@ void put_state(const devices::GloveState& state, tick_hand_t& message) {
   message.glove_command_age_ns = state.command_age.count();
   message.link_delay_ns = state.link_delay.count();
   message.glove_energy_J = state.energy;
+  message.glove_taken_J = state.taken.value_or(-1.0);
 }
 
 devices::GloveState state_of(const tick_hand_t& message) {
@@ -40,6 +41,7 @@ devices::GloveState state_of(const tick_hand_t& message) {
   state.command_age = std::chrono::nanoseconds(message.glove_command_age_ns);
   state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
   state.energy = message.glove_energy_J;
+  if (message.glove_taken_J >= 0.0) state.taken = message.glove_taken_J;
   return state;
 }
 

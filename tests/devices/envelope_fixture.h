@@ -54,6 +54,7 @@ class Envelope : public testing::Test {
     for (int i = 0; i < periods; ++i) {
       state_.X_WH.translation().x() += 1e-3 * speed;
       GloveCommand wanted = pull(20.0);
+      wanted.session = session_;
       wanted.sequence = ++sequence_;
       wanted.supply = supply;
       safe = tick(wanted);
@@ -61,7 +62,8 @@ class Envelope : public testing::Test {
     return safe;
   }
 
-  std::int64_t sequence_ = 0;  // of the commands of push_at
+  std::int64_t session_ = 1;  // of the commands of push_at
+  std::int64_t sequence_ = 0;
 
   SafeCommand settle(const GloveCommand& wanted) {
     SafeCommand safe;

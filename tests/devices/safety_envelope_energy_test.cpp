@@ -15,41 +15,37 @@ TEST_F(Envelope, GivesBackNoMoreEnergyThanTheHandPutIn) {
   EXPECT_EQ(at_start, 0.1);
   EXPECT_NEAR(push_at(-0.1, 50).energy(), at_start + 20.0 * 5e-3, 1e-3) << "20 N on a way of 5 mm";
   const SafeCommand safe = push_at(0.1, 500);
-  EXPECT_LT(safe.values().f_H_W.x(), 0.5);
+  EXPECT_LT(safe.values().f_H_W.x(), 1.0) << "by what recovers";
   EXPECT_GE(safe.energy(), 0.0);
   EXPECT_LT(safe.energy(), 0.006);
   EXPECT_TRUE(safe.reasons().energy_limited);
   EXPECT_EQ(to_text(safe.reasons(), safe.age()), "reduced force: it has given back all energy that the hand put in");
-  const double at_rest = push_at(0.0, 10).values().f_H_W.x();
-  EXPECT_NEAR(at_rest, 4.0, 0.2) << "a fifth is left";
-  EXPECT_EQ(push_at(0.0, 10).values().f_H_W.x(), at_rest) << "and does not change while the hand is at rest";
   EXPECT_EQ(push_at(-0.1, 500).values().f_H_W.x(), 20.0) << "the hand has put in new energy";
 }
 
 TEST_F(Envelope, GivesAReducedForceBackToAHandThatRests) {
   push_at(0.0, 800);
   push_at(0.1, 500);
-  double last = push_at(0.0, 20).values().f_H_W.x();
-  EXPECT_NEAR(last, 4.0, 0.2);
-  for (int i = 0; i < 3000; ++i) {
+  double last = push_at(0.0, 1).values().f_H_W.x();
+  for (int i = 0; i < 2000; ++i) {
     const double force = push_at(0.0, 1).values().f_H_W.x();
     ASSERT_GE(force, last);
-    ASSERT_LE(force, last + 0.1) << "softly";
+    ASSERT_LE(force, last + 0.5) << "softly";
     last = force;
   }
   EXPECT_EQ(last, 20.0);
 }
 
-/// 4 mm to and fro, 5 times a second: about 20 mJ.
+/// 4 mm to and fro, 5 times a second: about 20 mJ each way.
 TEST_F(Envelope, GivesNothingBackToAHandThatOscillates) {
   push_at(0.0, 800);
   push_at(0.1, 500);
-  const auto round = [&] {
-    push_at(-0.04, 100);
-    return push_at(0.04, 100).energy();
-  };
-  for (int i = 0; i < 50; ++i)
-    EXPECT_LT(round(), 0.01) << i;
+  double given = 0.0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    const double speed = ms % 200 < 100 ? -0.04 : 0.04;
+    given += 1e-3 * speed * push_at(speed, 1).values().f_H_W.x();
+  }
+  EXPECT_LT(given, 0.01) << "in ten seconds";
 }
 
 TEST_F(Envelope, ForgetsTheEnergyOfAContactThatHasEnded) {
@@ -88,16 +84,60 @@ TEST_F(Envelope, KeepsNoSupplyWhileThereIsNoForce) {
   EXPECT_EQ(push_at(0.0, 1000, supply).energy(), 0.1);
 }
 
-TEST_F(Envelope, KeepsAsADebtWhatOthersTook) {
+TEST_F(Envelope, GivesUpForOthersWhatItDoesNotNeed) {
   push_at(0.0, 800, 1.0);
-  EXPECT_NEAR(push_at(0.0, 200, 0.7).energy(), -0.2, 1e-9);
-  EXPECT_NEAR(push_at(0.0, 200, 1.0).energy(), 0.1, 1e-9) << "taken and given back: nothing is gained";
+  const double put_in = push_at(-0.1, 100, 1.0).energy() - 0.1;
+  EXPECT_NEAR(put_in, 0.2, 0.01);
+  const SafeCommand asked = push_at(0.0, 1, 0.85);
+  EXPECT_NEAR(asked.taken(), 0.15, 1e-9);
+  EXPECT_NEAR(asked.energy(), 0.1 + put_in - 0.15, 1e-9);
+  const SafeCommand poor = push_at(0.0, 10, -20.0);
+  EXPECT_NEAR(poor.taken(), put_in, 1e-9) << "no more than there is";
+  EXPECT_EQ(poor.energy(), 0.1);
+  EXPECT_EQ(poor.values().f_H_W.x(), 20.0) << "and no force shrinks for that";
+  EXPECT_NEAR(push_at(0.0, 10, -19.9).energy(), 0.1, 1e-9) << "asked for less: nothing is gained";
+  push_at(0.0, 10'000, -19.9);
+  EXPECT_GT(push_at(-0.1, 100, -19.9).energy(), 0.25) << "after some seconds nobody asks for it any more";
 }
 
-TEST_F(Envelope, ASenderThatStartsAgainGivesNothing) {
+TEST_F(Envelope, CountsWhatPushesInTheShareThatIsExerted) {
+  push_at(0.0, 800);
+  DeviceDescriptor weak = kDevice;
+  weak.max_force = 5.0;
+  envelope_ = SafetyEnvelope(weak);
+  last_f_.setZero();
+  push_at(0.0, 800);
+  const double before = push_at(-0.01, 100).energy();
+  EXPECT_NEAR(push_at(0.0, 1, 0.4).energy() - before, std::min(0.1, kDevice.max_power * 1e-3), 1e-3)
+      << "a quarter of 20 N, and no more than the largest power";
+}
+
+/// 20 N for a second, then nothing for half a second, then another server; which counts from anywhere.
+TEST_F(Envelope, AServerThatTakesOverChangesNoEnergy) {
+  for (const std::int64_t sequence : {0, 100'000}) {
+    for (const double supply : {-3.0, 3.0}) {
+      push_at(0.0, 1000);
+      for (int i = 0; i < 500; ++i) {
+        now_ += milliseconds(1);
+        state_.time += milliseconds(1);
+        ++state_.sequence;
+        GloveCommand old = pull(20.0);
+        old.sequence = sequence_;
+        old.state_time = milliseconds(1);
+        checked(envelope_.limit(old, state_, now_));
+      }
+      sequence_ = sequence;
+      EXPECT_EQ(push_at(0.0, 500, supply).energy(), 0.1) << sequence << ", " << supply;
+    }
+  }
+}
+
+TEST_F(Envelope, ASenderOfAnotherSessionCountsAnew) {
   push_at(0.0, 800, 3.0);
+  session_ = 2;
+  EXPECT_EQ(push_at(0.0, 100, 5.0).energy(), 0.1);
   sequence_ = 0;
-  EXPECT_EQ(push_at(0.0, 100, 0.0).energy(), 0.1);
+  EXPECT_EQ(push_at(0.0, 100, 8.0).energy(), 0.1) << "and so does one that starts again";
 }
 
 /// Interruptions of 12 ms, every 0.6 s, with a hand that is lifted by 1 mm after each of them: 20 mJ.

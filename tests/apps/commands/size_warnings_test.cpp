@@ -183,6 +183,27 @@ TEST_F(WrongUnits, SlideWarnsOfAPartThatNeverComesNearAnything) {
   EXPECT_EQ(slide(box, box, "0.2").standard_error, "");
 }
 
+TEST_F(WrongUnits, TrajectoriesThatLeaveTheSceneFarBehindAreDoubted) {
+  const std::string scene =
+      folder.write("scene.yaml",
+                   "objects:\n"
+                   "- {name: part, movable: true, shape: {type: box, size_x_m: 0.1, size_y_m: 0.1, size_z_m: 0.1}, "
+                   "pose: {position_m: [0, 0, 0.2]}}\n"
+                   "- {name: floor, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"
+                   "script: way.csv\n");
+  const auto warnings = [&](const std::string& x) {
+    const std::string way =
+        folder.write("way.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.2,1,0,0,0\n0.02," + x + ",0,0.2,1,0,0,0\n");
+    return glissade({"slide", scene, "--part", "part", "--trajectory", way, "--summary", "-"}).standard_error +
+           glissade({"demo", "--scene", scene, "--offline", "--seconds", "0.02"}).standard_error;
+  };
+  EXPECT_EQ(warnings("1.5"), "");
+  EXPECT_EQ(warnings("100").find("hand.csv"), std::string::npos);
+  const std::string doubt = folder.path("way.csv") + ": it leads 99.8 m beyond everything in the scene: are its " +
+                            "positions in millimetres?\n";
+  EXPECT_EQ(warnings("100"), "glissade: warning: " + doubt + "glissade: warning: " + doubt);
+}
+
 TEST(ToldSize, ProposesTheScaleThatMakesMetresOfMillimetres) {
   EXPECT_EQ(told_size(0.06, 1.0, "--scale "), "0.06 m across");
   EXPECT_EQ(told_size(60.0, 1.0, "--scale "), "60 m across: millimetres? --scale 0.001");

@@ -129,6 +129,8 @@ TEST_F(AssemblyCheck, WritesAPage) {
   EXPECT_THAT(result.standard_output, testing::HasSubstr("above.csv: end of the trajectory reached"));
   EXPECT_THAT(result.standard_output, testing::HasSubstr("below.csv: end of the trajectory not reached, 10.0"));
   EXPECT_THAT(result.standard_output, testing::HasSubstr(" degrees from it (allowed: 0.3 mm and 0.5 degrees); "));
+  EXPECT_THAT(result.standard_output,
+              testing::HasSubstr("\n2 trajectories: 1 reach the goal, 1 do not, 0 cannot be checked\n"));
   const std::string with_goal = folder.write("goal.yaml", read_text_file(scene) + "goal: {position_m: [0, 0, 0]}\n");
   EXPECT_THAT(test_support::glissade(
                   {"slide", with_goal, "--part", "box", "--trajectory", above, "--report", folder.path("with_goal")})
@@ -139,6 +141,17 @@ TEST_F(AssemblyCheck, WritesAPage) {
   for (const char* part :
        {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]", "clearance [um]"})
     EXPECT_THAT(page, testing::HasSubstr(part));
+}
+
+TEST_F(AssemblyCheck, CountsTheTrajectoriesWhereNoTableGoes) {
+  const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
+  const ProgramResult result = check({above, inside, below, above}, {"--summary", folder.path("summary.csv")});
+  EXPECT_THAT(result.standard_output,
+              testing::EndsWith("\n4 trajectories: 2 reach the goal, 1 do not, 1 cannot be checked\n"));
+  EXPECT_THAT(check({above, below}, {}).standard_output, testing::Not(testing::HasSubstr("trajectories:")))
+      << "only rows of the table";
+  EXPECT_THAT(check({above}, {"--summary", folder.path("one.csv")}).standard_output,
+              testing::Not(testing::HasSubstr("trajectories:")));
 }
 
 TEST_F(AssemblyCheck, ThePageNamesTheRules) {

@@ -273,6 +273,16 @@ TEST_F(Slide, FrictionHoldsThePartBack) {
   EXPECT_EQ(reached({"--friction", "0"}), reached({}));
 }
 
+TEST_F(Slide, TheForceIsStiffnessTimesDepth) {
+  const std::string hand = trajectory("0,0,0,0.021,1,0,0,0\n0.1,0,0,0.018,1,0,0,0\n0.2,0,0,0.018,1,0,0,0\n");
+  const auto force = [&](const std::vector<std::string>& options) {
+    return slide(scene({floor}), hand, options).back().at("fz_N");
+  };
+  EXPECT_NEAR(force({}), 1000.0 * 0.002, 1000.0 * kTwoMargins);
+  EXPECT_NEAR(force({"--stiffness", "300"}), 300.0 * 0.002, 300.0 * kTwoMargins);
+  EXPECT_NEAR(force({"--stiffness", "5000", "--method", "paper"}), 5000.0 * 0.002, 0.01 * 5000.0 * 0.002);
+}
+
 TEST_F(Slide, TellsTheOutcomeWhereNoTableGoes) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const ProgramResult result = test_support::glissade(
@@ -290,6 +300,9 @@ TEST_F(Slide, RefusesRulesThatCannotBe) {
     return arguments;
   };
   expect_refused(slide_with({"--friction", "-0.1"}), {"--friction: must be at least 0, not -0.1"});
+  expect_refused(slide_with({"--stiffness", "-1"}), {"--stiffness: must be above 0, not -1"});
+  expect_refused(slide_with({"--stiffness", "1"}), {"--stiffness: must lie between 10 and 100000 N/m, not 1"});
+  expect_refused(slide_with({"--stiffness", "nan"}), {"--stiffness"});
   expect_refused(slide_with({"--friction", "0.3", "0.2"}), {"--friction", "at rest"});
   expect_refused(slide_with({"--method", "paper", "--spiral-search"}), {"--method", "--spiral-search"});
 }

@@ -44,6 +44,15 @@ TEST(SceneFile, EqualMeshesAreShared) {
   EXPECT_NE(mesh("d"), mesh("f"));
 }
 
+TEST(SceneFile, ReadsAnglesInPlaceOfAQuaternion) {
+  const Scene scene = parse_object("    pose: {position_m: [1, 2, 3], orientation_rpy_deg: [0, 0, 90]}\n");
+  EXPECT_TRUE((scene.objects[0].X_WB * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d(1.0, 3.0, 3.0), 1e-15));
+  expect_bad_input([] { parse_object("    pose: {orientation_rpy_deg: [0, 90]}\n"); },
+                   {"scene.yaml:4:", "orientation_rpy_deg", "3"});
+  expect_bad_input([] { parse_object("    pose: {orientation_wxyz: [1, 0, 0, 0], orientation_rpy_deg: [0, 0, 0]}\n"); },
+                   {"scene.yaml:4:", "give one"});
+}
+
 TEST(SceneFile, ReadsAllowances) {
   const Scene scene = parse_object(
       "    margin_m: 2.0e-6\n"

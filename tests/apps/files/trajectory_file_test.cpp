@@ -1,4 +1,5 @@
 #include <chrono>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,25 @@ TEST(TrajectoryFile, ReadsTimesAndPoses) {
   EXPECT_EQ(path.first_time(), milliseconds(500));
   EXPECT_EQ(path.last_time(), milliseconds(1500));
   EXPECT_TRUE(path.pose_at(milliseconds(1000)).translation().isApprox(Eigen::Vector3d(1.0, 0.0, 2.0)));
+}
+
+TEST(TrajectoryFile, AnglesMayStandForAQuaternionInEveryScript) {
+  const std::string angles = "t_s,x_m,y_m,z_m,roll_deg,pitch_deg,yaw_deg";
+  const geometry::PoseTrajectory path = parse_trajectory(angles + "\n0,0,0,0,0,0,0\n1,0,0,0,0,0,90\n", "path.csv");
+  const Eigen::AngleAxisd eighth_turn(std::numbers::pi / 4.0, Eigen::Vector3d::UnitZ());
+  EXPECT_TRUE(path.pose_at(milliseconds(500)).linear().isApprox(eighth_turn.toRotationMatrix(), 1e-14));
+  const HandScript closing = parse_hand_script(angles + ",grip\n0,0,0,0,0,0,0,0\n1,0,0,0,180,0,0,1\n", "grip.csv");
+  EXPECT_EQ(closing.grip_changes, std::vector<std::chrono::nanoseconds>{milliseconds(1000)});
+  EXPECT_TRUE(closing.X_WH.pose_at(milliseconds(1000))
+                  .linear()
+                  .isApprox(Eigen::Vector3d(1.0, -1.0, -1.0).asDiagonal().toDenseMatrix(), 1e-14));
+  const std::string columns = joined_by_commas(with_angles(hand_trajectory_columns()));
+  std::string row = "0,0,0,0,0,0,0";
+  for (std::size_t joint = 0; joint < joint_columns().size(); ++joint)
+    row += "," + std::to_string(joint);
+  const HandScript fingers = parse_hand_script(columns + "\n" + row + "\n", "fingers.csv");
+  EXPECT_EQ(fingers.fingers.front().angles[3], 3.0);
+  EXPECT_EQ(fingers.fingers.front().angles.back(), 21.0);
 }
 
 TEST(TrajectoryFile, ATimeThatDoesNotRiseNamesItsLine) {

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/stat.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"
@@ -23,6 +24,22 @@ std::string write_key(const test_support::TemporaryFolder& folder, const std::st
   const std::string path = folder.write(name, std::string(64, digit) + '\n');
   std::filesystem::permissions(path, std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
   return path;
+}
+
+/// Waits until the program has said this; false after twenty seconds.
+bool says(const test_support::Process& program, const std::string& text) {
+  for (int i = 0; i < 2000; ++i) {
+    if (program.standard_error().find(text) != std::string::npos) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  return false;
+}
+
+std::string write_box_on_plate(const test_support::TemporaryFolder& folder) {
+  return folder.write("scene.yaml",
+                      "objects:\n"
+                      "  - {name: plate, shape: {type: plate}}\n"
+                      "  - {name: box, movable: true, shape: {type: box}, pose: {position_m: [0, 0, 2]}}\n");
 }
 
 TEST(TwoProcesses, AGloveInOneProcessCarriesThePartInTheOtherToItsSeat) {
@@ -171,6 +188,23 @@ TEST(TwoProcesses, TheRecordOfAGloveHasNoAgeBeforeTheFirstCommand) {
   EXPECT_TRUE(row.ends_with(",0,0,0,0,0,0,,")) << row;
 }
 
+TEST(OneProcess, RecordsAreNoPipesAndReplaceNoFile) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const std::string pipe = folder.path("pipe");
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const std::string older = folder.write("older", "of an earlier run");
+  const std::string scene = write_box_on_plate(folder);
+  const std::string url = test_support::kUrl;
+  test_support::expect_refused({"glove", "--lcm", url, "--record", pipe}, {"pipe: is a pipe"});
+  test_support::expect_refused({"glove", "--lcm", url, "--record", older}, {"older: is there already", "--overwrite"});
+  test_support::expect_refused({"record", pipe, scene, "--lcm", url}, {"pipe: is a pipe"});
+  test_support::expect_refused({"record", older, scene, "--lcm", url}, {"older: is there already", "--overwrite"});
+  test_support::expect_refused({"run", scene, "--lcm", url, "--flight-recorder", pipe}, {"pipe: is a pipe"});
+  test_support::expect_refused({"run", scene, "--lcm", url, "--key-file", pipe}, {"pipe: is not a regular file"});
+  test_support::expect_refused({"replay", pipe, "--lcm", url}, {"pipe: is not a regular file"});
+}
+
 TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;
@@ -189,6 +223,35 @@ TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
   const test_support::ProgramResult result = server.wait();
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_NE(result.standard_error.find("made with another key"), std::string::npos) << result.standard_error;
+}
+
+TEST(TwoProcesses, AServerThatWaitsForAnotherGloveSaysWhichSend) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
+  const test_support::Process server(
+      {GLISSADE_PROGRAM, "run", write_box_on_plate(folder), "--lcm", test_support::kUrl, "--device", "7"});
+  EXPECT_TRUE(says(server, "glove 7 is silent, but there are other gloves (--device): 1\n")) << server.standard_error();
+}
+
+TEST(ThreeProcesses, ASecondGloveWithTheSameNumberIsTold) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
+  const test_support::Process server(
+      {GLISSADE_PROGRAM, "run", write_box_on_plate(folder), "--lcm", test_support::kUrl});
+  EXPECT_TRUE(says(server, "holds 'box'"));
+  const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
+  EXPECT_TRUE(says(server, "a second glove sends as glove 1, and is not heard")) << server.standard_error();
+}
+
+TEST(TwoProcesses, APortThatIsTakenIsToldBeforeAnyGloveComes) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::TemporaryFolder folder;
+  const test_support::Process viewer({GLISSADE_PROGRAM, "view", "--lcm", test_support::kUrl, "--port", "8499"});
+  ASSERT_TRUE(says(viewer, "http://127.0.0.1:8499/"));
+  test_support::expect_refused({"run", write_box_on_plate(folder), "--lcm", test_support::kUrl, "--view", "8499"},
+                               {"8499"});
 }
 
 TEST(TwoProcesses, AServerThatCannotStartSaysNothingOfWaiting) {

@@ -131,6 +131,49 @@ TEST_F(RecordingCommands, AForeignFileIsRefused) {
   expect_refused({"replay", log, "--lcm", "udpm://239.255.76.67:7667?ttl=0"}, {"other.lcmlog", "no glove to play"});
 }
 
+TEST_F(RecordingCommands, TheRunsOfJoinedLogsAreRepeatedOneAfterTheOther) {
+  const std::string joined = changed(bytes() + bytes());
+  const test_support::ProgramResult result = test_support::glissade({"replay", joined, "--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(outcome(result)["same"], true);
+  EXPECT_EQ(outcome(result)["runs"], 2);
+  EXPECT_EQ(outcome(result)["ticks"], 1000);
+  EXPECT_NEAR(outcome(result)["recorded_s"].get<double>(), 2 * 0.499, 1e-9);
+
+  std::string second = bytes();
+  second[place_of_a_tick() + 60] ^= 4;
+  expect_fails(1, {"replay", changed(bytes() + second), "--json"}, {"run 2: the tick after 9 cannot be read"});
+}
+
+TEST_F(RecordingCommands, OtherFilesOfJoinedLogsHaveAllRuns) {
+  const std::string joined = changed(bytes() + bytes());
+  const std::string tables = folder_.path("tables");
+  ASSERT_EQ(test_support::glissade({"log", "to-csv", joined, tables}).exit_code, 0);
+  EXPECT_EQ(test_support::rows_of(read_text_file(tables + "/ticks.csv")).size(), 1000U);
+  const test_support::ProgramResult mcap = test_support::glissade({"log", "to-mcap", joined, folder_.path("run.mcap")});
+  EXPECT_EQ(mcap.exit_code, 0) << mcap.standard_error;
+  EXPECT_THAT(mcap.standard_output, HasSubstr("/scene: 2 messages\n/tf: 1000 messages"));
+  EXPECT_EQ(
+      test_support::glissade({"export", "--log", joined, "--at", "0.4", "--out", folder_.path("a.glb")}).exit_code, 0);
+  expect_refused({"export", "--log", joined, "--at", "0.6", "--out", folder_.path("a.glb")}, {"--at", "beyond"});
+}
+
+TEST_F(RecordingCommands, ALogWithGapsGivesWhatItHas) {
+  devices::EventLogReader reader(log_);
+  const std::string thin = folder_.path("thin.lcmlog");
+  devices::EventLogWriter writer(thin);
+  for (int i = 0; const std::optional<devices::LogEvent> event = reader.next(); ++i) {
+    if (i % 3 != 1) writer.write(*event);
+  }
+  writer.close();
+  std::string bytes = read_text_file(thin);
+  bytes[11] = 77;  // the number of the first event
+  const test_support::ProgramResult result =
+      test_support::glissade({"log", "to-csv", changed(bytes), folder_.path("tables")});
+  EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+  EXPECT_EQ(result.standard_error, "");
+}
+
 TEST_F(RecordingCommands, TablesTellOfEveryTick) {
   const std::string tables = folder_.path("tables");
   const test_support::ProgramResult result = test_support::glissade({"log", "to-csv", log_, tables});
@@ -185,7 +228,7 @@ TEST_F(RecordingCommands, McapHasEveryTickAndTheScene) {
             "/hand_0: 500 messages\n/loop: 500 messages\n/part_0: 500 messages\n/scene: 1 message\n"
             "/tf: 500 messages\n");
   EXPECT_EQ(result.standard_error, "");
-  expect_refused({"log", "to-mcap", log_, log_}, {"run.lcmlog", "is the log itself"});
+  expect_refused({"log", "to-mcap", log_, log_}, {"run.lcmlog", "is an input, which would be overwritten"});
   expect_refused({"log", "to-mcap", log_, folder_.path("no/run.mcap")}, {"no/run.mcap", "cannot be created"});
   expect_refused({"log", "to-mcap", scene_, mcap}, {"scene.yaml", "is no LCM event log"});
 }
@@ -194,7 +237,7 @@ TEST_F(RecordingCommands, McapOfALargeSceneIsSimplifiedAndSaysSo) {
   std::string large = read_text_file(scene_);
   large.replace(large.find("triangles: 200"), 14, "triangles: 120000");
   const std::string scene = folder_.write("large.yaml", large);
-  test_support::glissade({"demo", "--offline", "--seconds", "0.02", "--scene", scene, "--record", log_});
+  test_support::glissade({"demo", "--offline", "--seconds", "0.02", "--scene", scene, "--record", log_, "--overwrite"});
   const std::string mcap = folder_.path("large.mcap");
   const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", log_, mcap});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;

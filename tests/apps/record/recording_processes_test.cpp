@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>
@@ -174,6 +175,24 @@ TEST_F(RecordingProcesses, LcmLoggerRecordsARun) {
   const ProgramResult tables = test_support::glissade({"log", "to-csv", log("logger.lcmlog"), log("tables")});
   EXPECT_EQ(tables.exit_code, 0) << tables.standard_error;
   EXPECT_THAT(tables.standard_output, HasSubstr("hands.csv"));
+}
+
+TEST_F(RecordingProcesses, WhatLcmLoggerAppendsIsRead) {
+  const Process hand(glove());
+  const std::string joined = log("joined.lcmlog");
+  folder.write("joined.lcmlog", "");
+  int before = 0;
+  for (int i = 0; i < 2; ++i) {
+    const std::uintmax_t size = std::filesystem::file_size(joined);
+    Process logger({"lcm-logger", "--lcm-url", kUrl, "--quiet", "--append", joined});
+    for (int turn = 0; turn < 2000 && std::filesystem::file_size(joined) < size + 10'000; ++turn)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    logger.signal(SIGINT);
+    logger.wait();
+    const int states = channels(joined).at("GLOVE_STATE");
+    EXPECT_GT(states, before);
+    before = states;
+  }
 }
 
 TEST_F(RecordingProcesses, LcmLogplayerPlaysARecording) {

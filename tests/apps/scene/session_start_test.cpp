@@ -10,6 +10,8 @@
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/multi_part_sliding.h>
 
+#include "expect_bad_input.h"
+
 namespace glissade::apps {
 namespace {
 
@@ -29,11 +31,34 @@ TEST(SessionStart, TellsWhichDeviceMakesContactsSofterAndWhy) {
   devices::DeviceDescriptor weak = devices::simulated_glove_descriptor();
   weak.name = "weak";
   weak.max_stiffness = 500.0;
-  EXPECT_THAT(softer_devices({{devices::simulated_glove_descriptor()}}, milliseconds(1)), IsEmpty());
+  EXPECT_THAT(softer_devices({{devices::simulated_glove_descriptor()}}, {}, milliseconds(1)), IsEmpty());
   EXPECT_THAT(
-      softer_devices({{weak}, {device_with_damping(0.3)}}, milliseconds(1)),
+      softer_devices({{weak}, {device_with_damping(0.3)}}, {}, milliseconds(1)),
       ElementsAre(AllOf(HasSubstr("weak"), HasSubstr("500 N/m instead of 1000"), HasSubstr("largest stiffness")),
                   AllOf(HasSubstr("600 N/m"), HasSubstr("passive"))));
+}
+
+TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
+  const Grip glove{devices::simulated_glove_descriptor(), 0};
+  const double largest = glove.device.max_stiffness;
+  const HapticScene scene =
+      make_haptic_scene(parse_scene("objects:\n"
+                                    "  - {name: part, movable: true, shape: {type: sphere}}\n"
+                                    "  - {name: wall, shape: {type: box}, pose: {position_m: [6, 0, 0]}}\n",
+                                    "scene", "."),
+                        {"part"});
+  const auto stiffness_with = [&](double wanted) {
+    const StartedSimulation started = start_simulation(scene, {glove}, {.stiffness_N_per_m = wanted}, {});
+    return started.simulation->parts().stiffness(0);
+  };
+  EXPECT_DOUBLE_EQ(stiffness_with(50.0).translational, 50.0);
+  EXPECT_DOUBLE_EQ(stiffness_with(2.0 * largest).translational, largest);
+  EXPECT_DOUBLE_EQ(stiffness_with(50.0).rotational / stiffness_with(100.0).rotational, 0.5);
+  EXPECT_THAT(softer_devices({glove}, {.stiffness_N_per_m = 50.0}, milliseconds(1)), IsEmpty());
+  EXPECT_THAT(softer_devices({glove}, {.stiffness_N_per_m = 2.0 * largest}, milliseconds(1)),
+              ElementsAre(HasSubstr("4000 N/m instead of 8000")));
+  for (const double wrong : {9.0, 1.1e5})
+    test_support::expect_bad_input([&] { stiffness_with(wrong); }, {"--stiffness", "between 10 and 100000"});
 }
 
 TEST(SessionStart, APartThatAnyHandMayTakeIsAsSoftAsTheWeakestDevice) {

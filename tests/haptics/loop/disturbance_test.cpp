@@ -198,7 +198,7 @@ TEST(Disturbance, SetsThatContradictEachOtherForHalfASecondDoNotShakeTheHand) {
     const Outcome outcome = disturbed_run({.corrupts = corrupt}, end);
     print(contradiction.name, outcome);
     EXPECT_LT(outcome.hand.greatest_change_N, kContactSlew_N);
-    EXPECT_LE(outcome.recovery, milliseconds(4000)) << "a force that is reduced comes back slowly";
+    EXPECT_LE(outcome.recovery, milliseconds(2000)) << "a force that is reduced comes back softly";
   }
 }
 

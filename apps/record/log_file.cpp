@@ -1,0 +1,30 @@
+#include <filesystem>
+
+#include <glissade/apps/files/file_checks.h>
+#include <glissade/apps/record/log_file.h>
+
+namespace glissade::apps {
+
+namespace {
+
+const std::string& checked(const std::string& path) {
+  check_input(path);
+  return path;
+}
+
+}  // namespace
+
+LogFile::LogFile(const std::string& path, const std::string& label)
+    : path_(checked(path)),
+      reader_(path),
+      progress_(label, static_cast<std::int64_t>(std::filesystem::file_size(path))) {}
+
+std::optional<devices::LogEvent> LogFile::next() {
+  constexpr std::int64_t kHeaderBytes = 28;
+  std::optional<devices::LogEvent> event = reader_.next();
+  if (event) bytes_ += kHeaderBytes + std::ssize(event->channel) + std::ssize(event->message);
+  progress_.update(bytes_);
+  return event;
+}
+
+}  // namespace glissade::apps

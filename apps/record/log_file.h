@@ -1,0 +1,33 @@
+#pragma once
+
+/// An event log as commands read it: an input of the run, with a progress bar.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <glissade/apps/progress.h>
+#include <glissade/devices/event_log.h>
+
+namespace glissade::apps {
+
+class LogFile {
+ public:
+  /// `label` is that of the bar. Throws std::invalid_argument, naming the file, when it cannot be read or is no event
+  /// log.
+  LogFile(const std::string& path, const std::string& label);
+
+  /// As those of `EventLogReader`.
+  std::optional<devices::LogEvent> next();
+  const std::string& damage() const noexcept { return reader_.damage(); }
+
+  const std::string& path() const noexcept { return path_; }
+
+ private:
+  std::string path_;
+  devices::EventLogReader reader_;
+  ProgressBar progress_;
+  std::int64_t bytes_ = 0;
+};
+
+}  // namespace glissade::apps
