@@ -45,7 +45,9 @@ inline bool needs_network(const std::string& example) {
 /// Runs an example in a shell, in this folder, for less time than it says, and ends what it left in the background.
 inline ProgramResult run_example(const std::string& example, const TemporaryFolder& folder) {
   const std::string bin = std::filesystem::path(GLISSADE_PROGRAM).parent_path().string();
-  const std::string brief = std::regex_replace(example, std::regex("--seconds [0-9.]+"), "--seconds 0.3");
+  // A hand of 'demo' that is faster misses its goal.
+  const char* seconds = example.find("demo") == std::string::npos ? "--seconds 0.3" : "--seconds 1";
+  const std::string brief = std::regex_replace(example, std::regex("--seconds [0-9.]+"), seconds);
   const std::string command = "cd '" + folder.path("") + "' && PATH='" + bin + "':\"$PATH\" && { " + brief +
                               "; }; status=$?; kill $(jobs -p) 2> /dev/null; wait; exit $status";
   return Process({"/bin/bash", "-c", command}).wait();  // sh knows no jobs in $()
