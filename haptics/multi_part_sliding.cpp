@@ -27,9 +27,9 @@ class MultiPartSliding::Cycle {
  public:
   Cycle(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const std::vector<RiderChain>& chains,
         const SlidingRules& rules)
-      : shared_(std::move(obstacles), parts, chains, rules),
-        step_finder_(shared_),
-        starts_(shared_, parts, kTouching * step_finder_.certain_distance()) {}
+      : shared_(std::move(obstacles), parts, chains, rules), step_finder_(shared_), starts_(shared_) {
+    if (!shared_.seats.empty()) measure_levers();
+  }
 
   const SimulatedParts& shared() const { return shared_; }
   const CallStatistics& statistics() const { return statistics_; }
@@ -92,8 +92,6 @@ class MultiPartSliding::Cycle {
   }
 
  private:
-  /// In units of `StepFinder::certain_distance`: bodies closer than this count as overlapping at the start.
-  static constexpr double kTouching = 4.0;
   /// In the reach of this call: what is found at its end serves for the next one, whose ghosts may move a little
   /// faster.
   static constexpr double kReachOfNextCall = 1.05;
@@ -108,6 +106,7 @@ class MultiPartSliding::Cycle {
       answered_call_ = statistics_.calls;
       return false;
     }
+    leave_seats();
     starts_.depenetrate(kSlew_m * milliseconds_);
     is_under_way_ = true;
     cycles_ = 0;
@@ -187,7 +186,7 @@ class MultiPartSliding::Cycle {
     if (is_done) radius_.prepare_next(shared_, ignored_);
     for (std::size_t p = 0; p < shared_.count(); ++p) {
       HeldPartState& part = shared_.states[p];
-      if (part.is_held() && starts_.overlaps().way_out_of(p) == nullptr) part.turn_target();
+      if (part.is_held() && !starts_.is_pushed_out(p)) part.turn_target();
     }
     if (shared_.count() > 1 && !looks_again) reach = std::max(0.0, reach - radius_.last_step());
     report(reach);
@@ -214,13 +213,18 @@ class MultiPartSliding::Cycle {
     return left;
   }
 
-  /// The pairs of bodies that no search looks at: those that overlap, and those that keep their distance.
+  void leave_seats() {
+    if (!starts_.leave_seats()) return;
+    step_finder_.rows().forget_forces();
+    shared_.candidates.clear();
+    measure_levers();
+  }
+
+  /// The pairs of bodies that no search looks at: those of seats, and those that keep their distance.
   void find_ignored() {
-    const std::span<const BodyPair> overlapping = starts_.overlaps().pairs();
     ignored_ = shared_.riders.inert_pairs();
     const auto sorted = std::ssize(ignored_);
-    ignored_.insert(ignored_.end(), overlapping.begin(), overlapping.end());
-    std::sort(ignored_.begin() + sorted, ignored_.end());
+    ignored_.insert(ignored_.end(), starts_.ignored().begin(), starts_.ignored().end());
     std::inplace_merge(ignored_.begin(), ignored_.begin() + sorted, ignored_.end());
   }
 
@@ -260,7 +264,7 @@ class MultiPartSliding::Cycle {
   /// Reports the cycle: its contacts within `reach`, and where it has led. With several parts the contacts are reported
   /// where the step has led.
   void report(double reach) {
-    report_contacts(shared_, starts_.overlaps(), step_finder_.rows().all_contacts(), milliseconds_);
+    report_contacts(shared_, starts_.ways_out(), step_finder_.rows().all_contacts(), milliseconds_);
     for (HeldPartState& part : shared_.states) {
       if (part.is_held()) part.end_cycle(cycles_, reach);
     }

@@ -4,6 +4,7 @@
 /// the founding paper, *Natural Interaction in Virtual Environments*). The ghost of a part is the pose that the part
 /// would have if nothing were in the way. Each visible part follows its ghost as closely as the obstacles and the other
 /// parts allow. A part that starts apart from all other bodies never gets inside one, neither at rest nor on its way.
+/// One that touches or overlaps a body at its start never gets deeper into it.
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
 /// contacts with a gap below a search radius, the reach. It then projects the wanted displacements of the parts on the
@@ -33,6 +34,18 @@ namespace glissade::haptics {
 
 class ContactScene;
 
+/// How deep a part at X_BV is in a body, metres: by so much, all of its faces would have to move inwards until it were
+/// free. 0 if the two are apart, or only touch. Where no such distance frees the part, or the part is an open surface,
+/// instead the length of a translation that leads out of the body. Cost: some hundred collision queries.
+double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
+
+/// The mesh of a part with all of its faces `depth` (metres) further inside; that of an open surface as it is.
+/// Triangles keep their numbers.
+geometry::TriangleMesh inset_mesh(const SlidingPart& part_V, double depth);
+
+/// Whether a part at X_BV is wholly inside the closed surface of a body, which it does not touch.
+bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
+
 /// The simulation of up to kMaxParts parts among fixed obstacles, and of riders: hands, for example, that are in the
 /// way of parts or move with them. Deterministic: the same calls give the same bits. Not thread-safe; several
 /// simulations may share bodies.
@@ -41,7 +54,7 @@ class MultiPartSliding final : public LoopSimulation {
   /// Nothing touches the riders of `chains` before they are placed. Throws std::invalid_argument for no part or more
   /// than kMaxParts parts, for a single part without obstacles and riders, for null pointers, for poses and numbers out
   /// of range, and for overlaps at the start that `OverlapRule` refuses. Bodies closer than the rounding of their
-  /// coordinates count as overlapping.
+  /// coordinates count as touching.
   MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {},
                    const std::vector<RiderChain>& chains = {});
   MultiPartSliding(MultiPartSliding&&) noexcept;

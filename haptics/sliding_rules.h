@@ -62,14 +62,18 @@ inline constexpr double kMinClearanceOfMargin = 0.3;
 /// Maximum number of parts in one simulation.
 inline constexpr std::size_t kMaxParts = 4;
 
-/// The treatment of a part that overlaps an obstacle at its start. Two parts must never overlap at their start.
+/// The treatment of a part that overlaps an obstacle at its start by more than its margin. Two parts must never overlap
+/// so far at their start. Parts may always touch, and overlap by a margin: a part then goes wherever it gets no deeper
+/// in, and is apart as soon as there is room.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< the constructor of the simulation (`Sliding`, `MultiPartSliding`) throws
   /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per
-  /// millisecond, regardless of the hand. Once part and obstacle are one margin apart, the part follows the hand again,
-  /// and the obstacle is like any other. Other obstacles stop the part on its way out as usual. If a part overlaps
-  /// several obstacles, it moves out of the deepest overlap first. For a scripted part (`HeldPart::script`), the
-  /// constructor of the simulation throws all the same.
+  /// millisecond, regardless of the hand, if there is such a way on which it gets no deeper into anything. Otherwise,
+  /// and where it is blocked on this way for twenty calls, it follows the hand as far as it gets no deeper in. Once
+  /// part and obstacle are apart, the obstacle is like any other. Other obstacles stop the part as usual. If a part
+  /// overlaps several obstacles, it moves out of the deepest overlap first. Where the part is no closed surface, or
+  /// would have to be thinner than nothing to be free, and for a scripted part (`HeldPart::script`), the constructor of
+  /// the simulation throws all the same.
   kDepenetrate,
 };
 

@@ -191,7 +191,7 @@ class GraspTables {
   void write_object(double time_s, std::size_t p) {
     const haptics::MultiPartSliding& parts = simulation_.parts();
     const haptics::SlidingResult& result = parts.result(p);
-    const haptics::Wrench wrench = wrench_about_origin(parts, p);
+    const haptics::Wrench wrench = wrench_about_reference(parts, p);
     object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
     object_rows_->add(haptics::name_of(result.state));
     // Adding zero turns a negative zero into the plain one.

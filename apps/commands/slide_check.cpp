@@ -112,7 +112,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
-    const haptics::Wrench wrench = wrench_about_origin(*sliding);
+    const haptics::Wrench wrench = wrench_about_reference(*sliding);
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
@@ -132,7 +132,9 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   check.clearance = curve.take(name);
   check.clearance_min_m = clearance.least();
   check.clearance_min_at_s = in_seconds(clearance.least_at() * milliseconds(1));
-  note_goal(sliding->result().X_WV, scene.X_WGoal.value_or(trajectory.last_pose()), options, check);
+  const Eigen::Isometry3d& X_WV = sliding->result().X_WV;
+  note_goal(X_WV, scene.X_WGoal.value_or(trajectory.last_pose()), options, check);
+  if (!check.goal_reached) check.overlaps = text_of_overlaps(scene, std::span(&X_WV, 1), sliding->scripted_X_WB());
   return check;
 }
 
@@ -153,10 +155,10 @@ std::string verdict(const SlideCheck& check, const SlideCheckOptions& options) {
                                     : "";
   return name_of_goal(check) + (check.goal_reached ? " reached, " : " not reached, ") +
          fixed_text(1e3 * check.goal_distance_m, 3) + " mm and " + fixed_text(check.goal_angle_deg, 2) +
-         " degrees from it" + (check.goal_reached ? "" : " (allowed: " + goal_tolerance(options) + ")") + "; at most " +
-         fixed_text(check.force_max_N, 2) + " N and " + fixed_text(check.torque_max_Nm, 3) +
-         " Nm about the part's origin" + clearance + "; " + fixed_text(check.contact_s, 3) + " of " +
-         fixed_text(check.duration_s, 3) + " s in contact";
+         " degrees from it" + (check.goal_reached ? "" : " (allowed: " + goal_tolerance(options) + ")") +
+         (check.overlaps.empty() ? "" : ", still " + check.overlaps) + "; at most " + fixed_text(check.force_max_N, 2) +
+         " N and " + fixed_text(check.torque_max_Nm, 3) + " Nm about the part's reference point" + clearance + "; " +
+         fixed_text(check.contact_s, 3) + " of " + fixed_text(check.duration_s, 3) + " s in contact";
 }
 
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {

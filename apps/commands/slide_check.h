@@ -36,7 +36,8 @@ struct SlideCheck {
   double goal_distance_m = 0.0;  ///< of the part's origin, at the end
   double goal_angle_deg = 0.0;
   double force_max_N = 0.0;
-  double torque_max_Nm = 0.0;    ///< about the part's origin
+  std::string overlaps;          ///< if the goal is not reached: "at most 0.1 mm deep in 'wall'", if it still is
+  double torque_max_Nm = 0.0;    ///< about the part's reference point
   double clearance_min_m = 0.0;  ///< of the visible part; infinite if left out
   double clearance_min_at_s = 0.0;
   double duration_s = 0.0;

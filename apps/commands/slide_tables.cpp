@@ -23,7 +23,7 @@ std::vector<std::string> moving_columns() {
 void add_motion_row(CsvWriter& out, double time_s, haptics::SlidingMethod method,
                     const haptics::SlidingSimulation& sliding) {
   const haptics::SlidingResult& result = sliding.result();
-  const haptics::Wrench wrench = wrench_about_origin(sliding);
+  const haptics::Wrench wrench = wrench_about_reference(sliding);
   out.add(time_s).add(result.X_WG).add(result.X_WV);
   // Adding zero turns a negative zero into the plain one.
   for (int i = 0; i < 3; ++i)

@@ -1,10 +1,40 @@
 #include <algorithm>
+#include <optional>
 #include <span>
 
 #include <glissade/apps/progress.h>
 #include <glissade/apps/run/session_check.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/haptics/multi_part_sliding.h>
 
 namespace glissade::apps {
+
+namespace {
+
+/// Metres: how much deeper than at its start a part may overlap others, a twentieth of the usual margins and more.
+constexpr double kDeeper_m = 1e-6;
+
+/// What must never collide of a part: all of it, or if it touches or overlaps others at its start, what is inside of
+/// the faces that do.
+std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& scene, std::size_t part) {
+  const std::shared_ptr<const haptics::SlidingPart>& part_V = scene.parts[part].part_V;
+  const Eigen::Isometry3d& X_WV = scene.parts[part].X_WV_start;
+  collision::QueryWorkspace workspace;
+  std::optional<double> depth;
+  const auto look_at = [&](const haptics::ContactBody& body, const Eigen::Isometry3d& X_WB) {
+    const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * X_WV;
+    if (!collision::intersects(body.tree, part_V->tree, X_BV, workspace)) return;
+    depth = std::max(depth.value_or(0.0), haptics::overlap_depth(body, *part_V, X_BV));
+  };
+  for (const haptics::Obstacle& obstacle : scene.obstacles)
+    look_at(*obstacle.body, obstacle.X_WO);
+  for (std::size_t other = 0; other < part; ++other)
+    look_at(*scene.parts[other].part_V, scene.parts[other].X_WV_start);
+  if (!depth) return {part_V, &part_V->tree.mesh()};
+  return std::make_shared<const geometry::TriangleMesh>(haptics::inset_mesh(*part_V, *depth + kDeeper_m));
+}
+
+}  // namespace
 
 SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& scene, const HandModels& hands,
                            std::optional<std::chrono::milliseconds> patience)
@@ -12,8 +42,8 @@ SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& sc
       obstacles_(scene.placed_obstacles),
       colliding_of_parts_(samples.parts(), 0),
       colliding_of_hands_(samples.hands(), 0) {
-  for (const ScenePart& part : scene.parts)
-    meshes_.emplace_back(part.part_V, &part.part_V->tree.mesh());
+  for (std::size_t part = 0; part < scene.parts.size(); ++part)
+    meshes_.push_back(mesh_to_check(scene, part));
   for (const haptics::ScriptedPart& part : scene.moving)
     meshes_.emplace_back(part.part_B, &part.part_B->tree.mesh());
   for (const auto& mesh : meshes_)

@@ -12,8 +12,8 @@
 
 namespace glissade::apps {
 
-/// A sentence for each part at one of the poses `X_WV` that is wholly inside an obstacle whose mesh is closed and
-/// has one orientation. None for a part that intersects the obstacle.
+/// A sentence for each part at one of the poses `X_WV` that is wholly inside an obstacle whose mesh is closed.
+/// None for a part that intersects the obstacle.
 std::vector<std::string> parts_inside(const HapticScene& scene, std::span<const Eigen::Isometry3d> X_WV);
 /// The same at the poses of the scene.
 std::vector<std::string> parts_inside(const HapticScene& scene);

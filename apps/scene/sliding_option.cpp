@@ -21,7 +21,7 @@ void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
       ->check(not_negative());
   command.add_flag("--spiral-search", choice.spiral_search, "Search in a spiral when the part is stuck, see below");
   command.add_flag("--depenetrate", choice.depenetrate,
-                   "Push a part out of obstacles that overlap it at the start, see below");
+                   "Accept a part that starts in obstacles, and move it out, see below");
 }
 
 haptics::Metaphor metaphor_of(const SlidingChoice& choice) {

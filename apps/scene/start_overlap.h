@@ -11,10 +11,14 @@
 
 namespace glissade::apps {
 
-/// The first part of the scene that overlaps other objects: each of them with the length of a translation that leads
-/// out of it, and advice, to follow the message, such as ": at most 10 mm deep in 'floor', 2.5 mm deep in 'wall'; begin
-/// elsewhere, or let --depenetrate push the part out of obstacles". Empty if none overlaps. One pose for each part and
-/// for each object that moves on its own. Cost: some hundred collision queries for each other object.
+/// What the part that is deepest in others touches and overlaps, such as "at most 10 mm deep in 'floor', touching
+/// 'wall'"; empty if none does. One pose for each part and for each object that moves on its own. Cost: some hundred
+/// collision queries for each other object that it touches.
+std::string text_of_overlaps(const HapticScene& scene, std::span<const Eigen::Isometry3d> X_WV,
+                             std::span<const Eigen::Isometry3d> moving_X_WB);
+
+/// The same with advice, to follow the message that it cannot start, such as ": at most 10 mm deep in 'floor'; begin
+/// elsewhere, or let --depenetrate push the part out of obstacles". Empty if none is in others.
 std::string overlap_advice(const HapticScene& scene, std::span<const Eigen::Isometry3d> X_WV,
                            std::span<const Eigen::Isometry3d> moving_X_WB, bool may_depenetrate);
 /// The same at the poses of the scene.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the coupling of a part exerts on the hands that hold it, about the origin of the visible part, in world axes:
-/// zero while no contact pushes.
+/// What the coupling of a part exerts on the hands that hold it, about the reference point of the visible part, in
+/// world axes: zero while no contact pushes.
 
 #include <cstddef>
 
@@ -11,7 +11,7 @@
 
 namespace glissade::apps {
 
-haptics::Wrench wrench_about_origin(const haptics::SlidingSimulation& sliding);
-haptics::Wrench wrench_about_origin(const haptics::MultiPartSliding& parts, std::size_t part);
+haptics::Wrench wrench_about_reference(const haptics::SlidingSimulation& sliding);
+haptics::Wrench wrench_about_reference(const haptics::MultiPartSliding& parts, std::size_t part);
 
 }  // namespace glissade::apps

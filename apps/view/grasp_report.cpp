@@ -67,7 +67,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
     parts_.add(time_s, p, state.parts[p]);
     if (p >= scene_.parts.size()) continue;  // moves on its own
-    const haptics::Wrench wrench = wrench_about_origin(simulation_.parts(), p);
+    const haptics::Wrench wrench = wrench_about_reference(simulation_.parts(), p);
     forces_[p].add(time_s, wrench.f);
     torques_[p].add(time_s, wrench.t);
     others_X_WB_.clear();
@@ -100,7 +100,7 @@ Report GraspReport::finish(const GraspOutcome& outcome) {
   for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
     const std::string of_part = " of " + scene_.parts[p].name + " on the hands";
     report.plots.push_back(forces_[p].plot("Force" + of_part, "force [N]"));
-    report.plots.push_back(torques_[p].plot("Torque" + of_part + ", about its origin", "torque [Nm]"));
+    report.plots.push_back(torques_[p].plot("Torque" + of_part + ", about its reference point", "torque [Nm]"));
   }
   parts_.finish(report);
   Plot clearance = clearance_plot();

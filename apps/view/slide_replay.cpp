@@ -28,7 +28,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;
   }
-  const haptics::Wrench wrench = wrench_about_origin(sliding);
+  const haptics::Wrench wrench = wrench_about_reference(sliding);
   state.hands[0].part = 0;
   state.hands[0].force_W = wrench.f;
   state.hands[0].torque_V_W = wrench.t;

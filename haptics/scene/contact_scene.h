@@ -129,6 +129,11 @@ class ContactScene {
         std::min(kMinClearanceOfMargin * margin(obstacle, part_body), 0.95 * distance);
   }
 
+  /// Sets it to another one.
+  void set_min_clearance(std::int32_t obstacle, std::int32_t part_body, double clearance) {
+    min_clearances_[pair_index(obstacle, part_body)] = clearance;
+  }
+
   /// The reference point of a part: at first `SlidingPart::p_Vref`.
   const Eigen::Vector3d& p_Vref(std::size_t part) const { return p_Vref_[part]; }
   void set_p_Vref(std::size_t part, const Eigen::Vector3d& p_Vref) {

@@ -8,18 +8,28 @@
 namespace glissade::haptics {
 namespace {
 
-void add_overlaps(const SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts) {
+/// To the caller, an inset is its part.
+void hide_insets(const SimulatedParts& shared, std::vector<Contact>& contacts) {
+  if (shared.seats.empty()) return;
+  const std::int32_t first = shared.scene.rider(shared.inset_of_seat(0));
+  for (Contact& contact : contacts) {
+    if (contact.rider >= first) contact.rider = -1;
+  }
+}
+
+void add_overlaps(const SimulatedParts& shared, std::span<const WayOut> ways_out, std::vector<Contact>& contacts) {
   const auto obstacles = static_cast<std::int32_t>(shared.scene.obstacles().size());
-  for (const WayOut& way : overlaps.ways_out()) {
+  for (const WayOut& way : ways_out) {
+    const Seat& seat = shared.seats[way.seat];
     Contact& contact = contacts.emplace_back();
     contact.kind = ContactKind::kOverlap;
-    contact.part = way.bodies.part - obstacles;
-    contact.obstacle = way.bodies.obstacle;
+    contact.part = seat.bodies.part - obstacles;
+    contact.obstacle = seat.bodies.obstacle;
     contact.n_W = way.n_W;
     const HeldPartState& part = shared.states[static_cast<std::size_t>(contact.part)];
     contact.p_W = part.result.X_WV_of_contacts * part.p_Vref;
-    contact.gap = -way.depth;
-    contact.margin = shared.scene.margin(way.bodies.obstacle, way.bodies.part);
+    contact.gap = -way.left;
+    contact.margin = seat.margin;
   }
 }
 
@@ -66,9 +76,10 @@ void distribute(SimulatedParts& shared, const std::vector<Contact>& contacts, do
 
 }  // namespace
 
-void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts,
+void report_contacts(SimulatedParts& shared, std::span<const WayOut> ways_out, std::vector<Contact>& contacts,
                      double milliseconds) {
-  add_overlaps(shared, overlaps, contacts);
+  hide_insets(shared, contacts);
+  add_overlaps(shared, ways_out, contacts);
   if (shared.count() == 1) {
     std::swap(shared.states.front().result.contacts, contacts);
   } else {

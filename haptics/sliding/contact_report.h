@@ -2,19 +2,21 @@
 
 /// The contacts of a call, as the results of the parts report them.
 
+#include <span>
 #include <vector>
 
 #include <glissade/haptics/sliding_result.h>
 
-#include "sliding/overlaps.h"
 #include "sliding/simulated_parts.h"
+#include "sliding/starts.h"
 
 namespace glissade::haptics {
 
-/// Gives each part its own contacts, seen from its side, and adds the contacts of overlaps. `contacts` are those of the
+/// Gives each part its own contacts, seen from its side, and adds the contacts of overlaps out of
+/// which parts are pushed. The contacts of an inset are those of its part. `contacts` are those of the
 /// last cycle; their memory is reused, so their contents are arbitrary afterwards. The call answers `milliseconds` of
 /// motion.
-void report_contacts(SimulatedParts& shared, const Overlaps& overlaps, std::vector<Contact>& contacts,
+void report_contacts(SimulatedParts& shared, std::span<const WayOut> ways_out, std::vector<Contact>& contacts,
                      double milliseconds);
 
 }  // namespace glissade::haptics

@@ -7,14 +7,14 @@
 
 #include <glissade/geometry/rigid_pose.h>
 
+#include "certificate/moving_bodies.h"
 #include "sliding/sliding_constants.h"
 
 namespace glissade::haptics {
 namespace {
 
-double default_margin(const SlidingPart& part_V) {
-  return std::clamp(1e-4 * part_V.tree.radius(), 2e-6, 10e-6);
-}
+/// In units of `MovingBodies::certain_distance`: bodies closer than this touch at the start.
+constexpr double kTouching = 4.0;
 
 void check_rules(const SlidingRules& rules) {
   if (!(rules.contacts_ahead_ms >= 0.0 && std::isfinite(rules.contacts_ahead_ms))) {
@@ -69,6 +69,28 @@ ContactScene make_scene(std::vector<Obstacle> obstacles, const std::vector<HeldP
   return {std::move(obstacles), std::move(movers), parts.size(), margins, groups};
 }
 
+Eigen::Isometry3d start_pose(const HeldPart& part) {
+  const std::optional<Eigen::Isometry3d> X_WV =
+      geometry::rigid_pose(part.script ? part.script->pose_at({}) : part.X_WV_start);
+  if (!X_WV) throw std::invalid_argument("the start pose of " + part.name + " is not a rotation and translation");
+  return *X_WV;
+}
+
+std::vector<Seat> seats_at_start(const std::vector<Obstacle>& obstacles, const std::vector<HeldPart>& parts,
+                                 const std::vector<RiderChain>& chains, const SlidingRules& rules) {
+  ContactScene scene = make_scene(obstacles, parts, chains, rules);
+  for (std::size_t p = 0; p < parts.size(); ++p)
+    scene.place(p, start_pose(parts[p]));
+  return find_seats(scene, parts, rules.overlap, kTouching * MovingBodies(scene).certain_distance());
+}
+
+/// The caller's chains, and one for each inset.
+std::vector<RiderChain> with_insets(std::vector<RiderChain> chains, const std::vector<Seat>& seats) {
+  for (const Seat& seat : seats)
+    chains.push_back({{seat.inset_V}, seat.margin});
+  return chains;
+}
+
 HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV, const SlidingRules& rules) {
   HeldPartState state{.part_V = held.part_V,
                       .p_Vref = held.part_V->p_Vref(),
@@ -91,21 +113,23 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
 
 }  // namespace
 
+double default_margin(const SlidingPart& part_V) {
+  return std::clamp(1e-4 * part_V.tree.radius(), 2e-6, 10e-6);
+}
+
 SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts,
                                const std::vector<RiderChain>& chains, const SlidingRules& sliding_rules)
     : rules(checked(sliding_rules, parts)),
       affordable_search(rules.work_budget ? *rules.work_budget / 2 : kUnlimitedWork),
       work_of_steps(rules.work_budget.value_or(kUnlimitedWork)),
-      scene(make_scene(std::move(obstacles), parts, chains, rules)),
+      seats(seats_at_start(obstacles, parts, chains, rules)),
+      scene(make_scene(std::move(obstacles), parts, with_insets(chains, seats), rules)),
       candidates(scene, kLargestReach_m + kMostLookAhead_m, rules.has_search_thread, work_of_steps),
-      riders(scene, chains) {
+      riders(scene, with_insets(chains, seats)) {
   for (std::size_t p = 0; p < parts.size(); ++p) {
-    const std::optional<PartScript>& script = parts[p].script;
-    const std::optional<Eigen::Isometry3d> X_WV =
-        geometry::rigid_pose(script ? script->pose_at({}) : parts[p].X_WV_start);
-    if (!X_WV) throw std::invalid_argument("the start pose of " + parts[p].name + " is not a rotation and translation");
-    scene.place(p, *X_WV);
-    states.push_back(state_at_start(parts[p], *X_WV, rules));
+    const Eigen::Isometry3d X_WV = start_pose(parts[p]);
+    scene.place(p, X_WV);
+    states.push_back(state_at_start(parts[p], X_WV, rules));
     note_margin(states.back().margin);
   }
   for (const Obstacle& obstacle : scene.obstacles()) {
@@ -113,9 +137,23 @@ SimulatedParts::SimulatedParts(std::vector<Obstacle> obstacles, const std::vecto
   }
   for (const RiderChain& chain : chains)
     note_margin(chain.margin);
+  place_insets();
+}
+
+void SimulatedParts::place_insets() {
+  for (std::size_t i = 0; i < seats.size(); ++i) {
+    const Seat& seat = seats[i];
+    const auto part = static_cast<std::size_t>(seat.bodies.part) - scene.obstacles().size();
+    riders.place(chain_of_seat(i), {&states[part].result.X_WV, 1});
+    riders.attach(chain_of_seat(i), static_cast<std::int32_t>(part));
+    scene.set_min_clearance(seat.bodies.obstacle, inset_of_seat(i), seat.min_clearance);
+    note_margin(seat.margin);
+    largest_clearance = std::max(largest_clearance, seat.min_clearance);
+  }
 }
 
 void SimulatedParts::note_margin(double margin) {
+  largest_clearance = std::max(largest_clearance, kMinClearanceOfMargin * margin);
   largest_margin = std::max(largest_margin, margin);
   smallest_margin = std::min(smallest_margin, margin);
 }

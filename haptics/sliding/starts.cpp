@@ -1,53 +1,105 @@
 #include "sliding/starts.h"
 
 #include <algorithm>
-#include <stdexcept>
-
-#include <glissade/collision/dop_query.h>
+#include <array>
 
 namespace glissade::haptics {
+namespace {
 
-Starts::Starts(SimulatedParts& shared, const std::vector<HeldPart>& parts, double touching)
-    : shared_(shared), overlaps_(shared.scene) {
-  for (std::size_t part = 0; part < parts.size(); ++part) {
-    for (std::size_t other = 0; other < shared_.scene.body_of_mover(part); ++other)
-      look(parts, part, other, touching);
+/// A part that is blocked on its way out for so many calls is left to the hand.
+constexpr int kMostBlockedCalls = 20;
+/// Of a push: a part that moves less is blocked.
+constexpr double kBlocked = 0.01;
+
+}  // namespace
+
+Starts::Starts(SimulatedParts& shared) : shared_(shared) {
+  for (std::size_t i = 0; i < shared.seats.size(); ++i) {
+    const Seat& seat = shared.seats[i];
+    seats_.push_back(i);
+    if (!seat.way_out_W) continue;
+    const Eigen::Vector3d& p_W = shared.states[part_of(i)].result.X_WV.translation();
+    ways_out_.push_back({i, seat.way_out_W->normalized(), p_W + *seat.way_out_W, seat.way_out_W->norm()});
+  }
+  std::stable_sort(ways_out_.begin(), ways_out_.end(),
+                   [](const WayOut& a, const WayOut& b) { return a.left > b.left; });
+  find_ignored();
+  for (std::size_t part = 0; part < shared.count(); ++part) {
+    const auto body = static_cast<std::int32_t>(shared.scene.body_of_mover(part));
+    for (std::int32_t other = 0; other < body; ++other)
+      look({other, body});
   }
 }
 
-void Starts::look(const std::vector<HeldPart>& parts, std::size_t part, std::size_t other, double touching) {
-  ContactScene& scene = shared_.scene;
-  const BodyPair bodies{static_cast<std::int32_t>(other), static_cast<std::int32_t>(scene.body_of_mover(part))};
-  const double min_clearance = scene.min_clearance(bodies.obstacle, bodies.part);
-  const double gap = gap_of(bodies, std::max(min_clearance, 2.0 * touching));
-  if (gap > touching) {
-    if (gap >= min_clearance) return;
-    scene.start_near(bodies.obstacle, bodies.part, gap);
-    near_starts_.push_back(bodies);
-    return;
+bool Starts::is_seated(const BodyPair& bodies) const {
+  return std::any_of(seats_.begin(), seats_.end(),
+                     [&](std::size_t seat) { return shared_.seats[seat].bodies == bodies; });
+}
+
+void Starts::look(const BodyPair& bodies) {
+  if (is_seated(bodies)) return;
+  const double min_clearance = shared_.scene.min_clearance(bodies.obstacle, bodies.part);
+  const double gap = gap_of(bodies, min_clearance);
+  if (gap >= min_clearance) return;
+  shared_.scene.start_near(bodies.obstacle, bodies.part, gap);
+  near_starts_.push_back(bodies);
+}
+
+bool Starts::leave_seats() {
+  const std::size_t before = seats_.size();
+  std::erase_if(seats_, [&](std::size_t seat) {
+    const BodyPair& bodies = shared_.seats[seat].bodies;
+    const double min_clearance = shared_.scene.min_clearance(bodies.obstacle, bodies.part);
+    if (gap_of(bodies, min_clearance) < min_clearance) return false;
+    shared_.riders.remove(shared_.chain_of_seat(seat));
+    std::erase_if(ways_out_, [&](const WayOut& way) { return way.seat == seat; });
+    return true;
+  });
+  if (seats_.size() == before) return false;
+  find_ignored();
+  return true;
+}
+
+void Starts::find_ignored() {
+  ignored_.clear();
+  for (const std::size_t seat : seats_) {
+    const BodyPair& bodies = shared_.seats[seat].bodies;
+    ignored_.push_back(bodies);
+    for (std::int32_t other = 0; other < shared_.inset_of_seat(0); ++other) {
+      const bool can_touch =
+          ContactScene::can_touch(shared_.scene.group(static_cast<std::size_t>(other)), ContactScene::kChain);
+      const bool is_inert = shared_.scene.leader(other) == shared_.scene.leader(bodies.part);
+      if (other != bodies.obstacle && can_touch && !is_inert) ignored_.push_back({other, shared_.inset_of_seat(seat)});
+    }
   }
-  const std::span<const Obstacle> obstacles = scene.obstacles();
-  const bool is_obstacle = other < obstacles.size();
-  if (is_obstacle && shared_.rules.overlap == OverlapRule::kDepenetrate && !parts[part].script) {
-    overlaps_.add(bodies);
-    return;
-  }
-  const std::string& name = is_obstacle ? obstacles[other].name : parts[other - obstacles.size()].name;
-  throw std::invalid_argument(parts[part].name + " collides with " + name + " at its start pose");
+  std::sort(ignored_.begin(), ignored_.end());
 }
 
 void Starts::depenetrate(double most) {
   depenetration_ = 0.0;
-  if (overlaps_.empty()) return;
-  if (overlaps_.update()) shared_.candidates.clear();
-  for (std::size_t p = 0; p < shared_.count(); ++p) {
-    HeldPartState& part = shared_.states[p];
-    const WayOut* way = overlaps_.way_out_of(p);
-    if (way == nullptr || !part.is_held()) continue;
-    part.X_WS = part.result.X_WV;
-    part.X_WS.translation() += std::min(most, way->depth) * way->n_W;
+  std::array<bool, kMaxParts> is_aimed{};
+  for (WayOut& way : ways_out_) {
+    const std::size_t part = part_of(way.seat);
+    if (is_aimed[part] || !shared_.states[part].is_held()) continue;
+    is_aimed[part] = true;
+    push_on(way, most);
     depenetration_ = most;
   }
+  std::erase_if(ways_out_, [](const WayOut& way) { return way.left <= 0.0 || way.blocked_calls > kMostBlockedCalls; });
+}
+
+void Starts::push_on(WayOut& way, double most) {
+  HeldPartState& part = shared_.states[part_of(way.seat)];
+  const double left = way.n_W.dot(way.end_W - part.result.X_WV.translation());
+  const bool is_blocked = way.left - left < kBlocked * std::min(most, way.left);
+  way.blocked_calls = is_blocked ? way.blocked_calls + 1 : 0;
+  way.left = left;
+  part.X_WS = part.result.X_WV;
+  part.X_WS.translation() += std::clamp(left, 0.0, most) * way.n_W;
+}
+
+bool Starts::is_pushed_out(std::size_t part) const {
+  return std::any_of(ways_out_.begin(), ways_out_.end(), [&](const WayOut& way) { return part_of(way.seat) == part; });
 }
 
 /// Distance (metres) of two bodies, at most `limit`.

@@ -333,8 +333,7 @@ void StepFinder::begin_certificate(const Displacements& displacements, WorkBudge
     step_.length += step_.lengths[p];
   }
   // Bodies farther apart than this keep their minimum clearance whatever happens on the way.
-  const double concerned =
-      step_.length + kMinClearanceOfMargin * shared_.largest_margin + certificate_.certain_distance();
+  const double concerned = step_.length + shared_.largest_clearance + certificate_.certain_distance();
   certificate_.begin_step(shared_.of_parts(step_.displacements));
   is_covered_ = shared_.candidates.covers(concerned) ||
                 shared_.candidates.covered_on_path(certificate_) >= concerned - step_.length;

@@ -144,7 +144,7 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
   const std::string page = read_text_file(folder.path("report/index.html"));
   for (const char* part :
        {"1 grasp, holds for", "report-frames", "Kind of grasp", "<h2>Force of ball on the hands</h2>",
-        "<h2>Torque of ball on the hands, about its origin</h2>", "<h2>Contacts that push</h2>",
+        "<h2>Torque of ball on the hands, about its reference point</h2>", "<h2>Contacts that push</h2>",
         "Clearance of the visible parts, up to 2 mm", "<h2>States of the parts</h2>", "<span>released</span>"})
     EXPECT_NE(page.find(part), std::string::npos) << part;
 }

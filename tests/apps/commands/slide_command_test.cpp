@@ -227,7 +227,8 @@ TEST_F(Slide, StartingInsideAnObstacleIsAFailureWithItsReason) {
   const ProgramResult result = test_support::glissade(
       {"slide", scene({floor, wall_x}), "--part", "box", "--trajectory", corner, "--method", "paper"});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.standard_error, testing::HasSubstr(": at most 5 mm deep in 'sheet0', 10 mm deep in 'sheet1'\n"));
+  EXPECT_THAT(result.standard_error,
+              testing::HasSubstr(": at most 5 mm deep in 'sheet0', at most 10 mm deep in 'sheet1'\n"));
 }
 
 TEST_F(Slide, APartMustBeMovable) {
@@ -241,6 +242,29 @@ TEST_F(Slide, APartThatStartsInsideIsDepenetratedOnRequest) {
   const auto rows = slide(scene({floor}), hand, {"--depenetrate"});
   EXPECT_LT(rows.front().at("vz_m"), 0.0193) << "at limited speed";
   EXPECT_NEAR(rows.back().at("vz_m"), 0.02, 1e-5) << "half of the box above the floor";
+}
+
+TEST_F(Slide, APartThatFitsAtNominalSizeComesOutAndNeverThroughTheWall) {
+  const auto ends_at = [&](const std::string& left, const std::string& hand, const std::vector<std::string>& options) {
+    const std::string file =
+        folder.write("slot.yaml",
+                     "objects:\n"
+                     "- {name: right, shape: {type: box, size_x_m: 0.002, size_y_m: 0.1, size_z_m: 0.04}, "
+                     "pose: {position_m: [0.011, 0, 0]}}\n"
+                     "- {name: left, shape: {type: box, size_x_m: 0.002, size_y_m: 0.1, size_z_m: 0.04}, "
+                     "pose: {position_m: [" +
+                         left +
+                         ", 0, 0]}}\n"
+                         "- {name: box, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, "
+                         "size_z_m: 0.02}}\n");
+    return slide(file, hand, options).back();
+  };
+  const std::string up = trajectory("0,0,0,0,1,0,0,0\n0.3,0,0,0.05,1,0,0,0\n0.35,0,0,0.05,1,0,0,0\n");
+  EXPECT_NEAR(ends_at("-0.011", up, {}).at("vz_m"), 0.05, 1e-9) << "the faces coincide";
+  EXPECT_NEAR(ends_at("-0.0109", up, {"--depenetrate"}).at("vz_m"), 0.05, 1e-9) << "0.1 mm too thick";
+  const std::string aside = trajectory("0,0,0,0,1,0,0,0\n0.3,0.05,0,0,1,0,0,0\n");
+  for (const char* left : {"-0.011", "-0.0109"})
+    EXPECT_LT(std::abs(ends_at(left, aside, {"--depenetrate"}).at("vx_m")), 1e-5) << left;
 }
 
 TEST_F(Slide, WarnsOfAPartInsideAClosedSolid) {
@@ -289,7 +313,7 @@ TEST_F(Slide, TellsTheOutcomeWhereNoTableGoes) {
       {"slide", scene({floor}), "--part", "box", "--trajectory", hand, "--out", folder.path("motion.csv")});
   EXPECT_EQ(result.standard_output,
             hand + ": end of the trajectory reached, 0.000 mm and 0.00 degrees from it; at most 0.00 N and " +
-                "0.000 Nm about the part's origin; 0.000 of 0.010 s in contact\n");
+                "0.000 Nm about the part's reference point; 0.000 of 0.010 s in contact\n");
 }
 
 TEST_F(Slide, RefusesRulesThatCannotBe) {

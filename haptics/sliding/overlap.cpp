@@ -1,0 +1,36 @@
+// Functions of `multi_part_sliding.h` that tell of a part and a body without a simulation.
+
+#include <optional>
+
+#include <glissade/collision/dop_query.h>
+#include <glissade/haptics/multi_part_sliding.h>
+
+#include "sliding/inset.h"
+#include "sliding/orientation.h"
+#include "sliding/seats.h"
+#include "sliding/simulated_parts.h"
+
+namespace glissade::haptics {
+
+double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV) {
+  collision::QueryWorkspace workspace;
+  if (!collision::intersects(body.tree, part_V.tree, X_BV, workspace)) return 0.0;
+  const double touching = kTouchingOfMargin * default_margin(part_V);
+  const std::optional<double> depth = Inset(part_V.tree.mesh()).overlap(body, X_BV, touching);
+  if (depth) return *depth;
+  const double way_out = collision::find_way_out(body.tree, part_V.tree, X_BV, workspace).depth();
+  return way_out > touching ? way_out : 0.0;
+}
+
+geometry::TriangleMesh inset_mesh(const SlidingPart& part_V, double depth) {
+  Inset inset(part_V.tree.mesh());
+  return inset.exists() ? inset.at(depth) : part_V.tree.mesh();
+}
+
+bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV) {
+  collision::QueryWorkspace workspace;
+  return encloses(body.tree.mesh(), X_BV * part_V.tree.mesh().corner(0, 0)) &&
+         !collision::intersects(body.tree, part_V.tree, X_BV, workspace);
+}
+
+}  // namespace glissade::haptics

@@ -1,0 +1,241 @@
+// Parts that touch their neighbors at the start, as in assemblies of nominal size: they come out along the free
+// direction and are blocked in the others. All poses and the ways between them are checked by independent code, with a
+// part that is made smaller by what it overlaps at the start.
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/sliding.h>
+#include <glissade/reference/grid_check.h>
+
+#include "held_part.h"
+#include "poses.h"
+#include "random_numbers.h"
+#include "sweeps/nominal_fits.h"
+
+namespace glissade::haptics {
+namespace {
+
+using Eigen::Isometry3d;
+using Eigen::Vector3d;
+using test_support::nominal_fits;
+using test_support::NominalFit;
+using test_support::obstacle_of;
+using test_support::part_of;
+using test_support::pose;
+using test_support::turn;
+
+/// Of the margin: how much deeper than at the start a part may get.
+constexpr double kDeeper = 0.1;
+constexpr double kMarginOfFits = 3e-6;
+constexpr double kHandStep = 0.5e-3;  // of the hand in a millisecond
+
+/// A fit somewhere in space, whose part is in the hand. A call is one cycle, so its way is one step.
+class FlushFit {
+ public:
+  FlushFit(const NominalFit& fit, const Isometry3d& X_WA, double overlap = 0.0, OverlapRule rule = OverlapRule::kRefuse)
+      : X_WA_(X_WA),
+        smaller_(fit.part(kDeeper * kMarginOfFits)),
+        sliding_(obstacles(fit, X_WA), part_of(fit.part(-overlap)), X_WA,
+                 {.rules = {.max_cycles = 1, .margin = kMarginOfFits, .overlap = rule}}),
+        check_(placed(fit, X_WA)) {}
+
+  const Isometry3d& X_WV() const { return sliding_.result().X_WV; }
+  const SlidingResult& result() const { return sliding_.result(); }
+  /// Where the part is, seen from its place in the assembly.
+  Vector3d moved_A() const { return X_WA_.inverse() * X_WV().translation(); }
+
+  /// The hand goes there, by a translation and a rotation vector in the assembly.
+  void lead(const Vector3d& to_A, const Vector3d& turn_A = Vector3d::Zero()) {
+    const int ticks = std::max(20, static_cast<int>((to_A - ghost_A_).norm() / kHandStep));
+    const Vector3d from_A = std::exchange(ghost_A_, to_A);
+    for (int i = 1; i <= ticks; ++i)
+      tick(from_A + (to_A - from_A) * i / ticks, turn_A * i / ticks);
+    for (int i = 0; i < 50; ++i)
+      tick(to_A, turn_A);
+  }
+
+  /// Of all poses so far, and of those in between.
+  int collisions() const { return collisions_; }
+
+ private:
+  static std::vector<Obstacle> obstacles(const NominalFit& fit, const Isometry3d& X_WA) {
+    std::vector<Obstacle> obstacles;
+    for (const geometry::TriangleMesh& mesh : fit.others)
+      obstacles.push_back(obstacle_of(mesh, X_WA));
+    return obstacles;
+  }
+  static std::vector<reference::PlacedMesh> placed(const NominalFit& fit, const Isometry3d& X_WA) {
+    std::vector<reference::PlacedMesh> meshes;
+    for (const geometry::TriangleMesh& mesh : fit.others)
+      meshes.push_back({std::make_shared<const geometry::TriangleMesh>(mesh), X_WA});
+    return meshes;
+  }
+
+  void tick(const Vector3d& to_A, const Vector3d& turn_A) {
+    constexpr int kBetween = 4;
+    const Isometry3d before = X_WV();
+    const double angle = turn_A.norm();
+    sliding_.advance(X_WA_ * pose(to_A, angle == 0.0 ? Eigen::Quaterniond::Identity() : turn(angle, turn_A)));
+    for (int i = 1; i <= kBetween; ++i) {
+      const Isometry3d X = test_support::between(before, X_WV(), static_cast<double>(i) / kBetween);
+      collisions_ += check_.collides(smaller_, X) ? 1 : 0;
+    }
+  }
+
+  Isometry3d X_WA_;
+  geometry::TriangleMesh smaller_;
+  Sliding sliding_;
+  reference::GridCheck check_;
+  Vector3d ghost_A_ = Vector3d::Zero();
+  int collisions_ = 0;
+};
+
+/// Where coordinates are round, and somewhere else.
+std::vector<Isometry3d> somewhere(std::uint64_t seed) {
+  test_support::RandomNumbers random(seed);
+  Isometry3d X(random.rotation());
+  X.translation() = random.point(0.5);
+  return {Isometry3d::Identity(), X};
+}
+
+class FlushFits : public testing::TestWithParam<std::size_t> {
+ protected:
+  const NominalFit& fit() const { return nominal_fits()[GetParam()]; }
+};
+
+TEST_P(FlushFits, ComeOutAlongTheFreeDirection) {
+  for (const double overlap : {0.0, 0.5 * kMarginOfFits, -1e-9}) {
+    for (const Isometry3d& X_WA : somewhere(GetParam())) {
+      FlushFit flush(fit(), X_WA, overlap);
+      flush.lead(fit().way_out);
+      EXPECT_LT((flush.moved_A() - fit().way_out).norm(), 1e-9) << fit().name << ", overlap " << overlap;
+      EXPECT_EQ(flush.result().state, SlidingState::kFree);
+      EXPECT_EQ(flush.collisions(), 0) << fit().name << ", overlap " << overlap;
+    }
+  }
+}
+
+TEST_P(FlushFits, ComeOutOfAHandThatPullsAskew) {
+  for (const Isometry3d& X_WA : somewhere(100 + GetParam())) {
+    FlushFit flush(fit(), X_WA);
+    const Vector3d askew = fit().way_out + 1e-3 * fit().blocked.front();
+    flush.lead(askew, 0.01 * fit().way_out.normalized().cross(fit().blocked.front()));
+    EXPECT_LT((flush.moved_A() - askew).norm(), 2e-3) << fit().name;
+    EXPECT_EQ(flush.collisions(), 0) << fit().name;
+  }
+}
+
+TEST_P(FlushFits, AreBlockedInOtherDirections) {
+  for (const Isometry3d& X_WA : somewhere(200 + GetParam())) {
+    for (const Vector3d& blocked : fit().blocked) {
+      FlushFit flush(fit(), X_WA);
+      flush.lead(3e-3 * blocked);
+      EXPECT_LT(flush.moved_A().dot(blocked), kDeeper * kMarginOfFits) << fit().name << ", " << blocked.transpose();
+      EXPECT_GT(flush.result().pushing, 0) << fit().name;
+      EXPECT_EQ(flush.collisions(), 0) << fit().name << ", " << blocked.transpose();
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FlushFits, testing::Range<std::size_t>(0, 17));
+
+TEST(FlushFits, AreAllTested) {
+  EXPECT_EQ(nominal_fits().size(), 17u);
+}
+
+const NominalFit& fit_of(const std::string& name) {
+  return *std::find_if(nominal_fits().begin(), nominal_fits().end(),
+                       [&](const NominalFit& fit) { return fit.name == name; });
+}
+
+TEST(FlushFit, OpensToTheMarginWhereThereIsRoom) {
+  FlushFit flush(fit_of("box pushed along a table"), Isometry3d::Identity());
+  flush.lead(5e-3 * Vector3d::UnitX());
+  EXPECT_NEAR(flush.moved_A().z(), kMarginOfFits, 0.01 * kMarginOfFits);
+}
+
+double depth_of(const NominalFit& fit, double overlap) {
+  double depth = 0.0;
+  for (const geometry::TriangleMesh& mesh : fit.others)
+    depth =
+        std::max(depth, overlap_depth(*obstacle_of(mesh).body, *part_of(fit.part(-overlap)), Isometry3d::Identity()));
+  return depth;
+}
+
+TEST(OverlapDepth, IsNoneWherePartsOnlyTouchAndElseWhatTheyOverlap) {
+  for (const NominalFit& fit : nominal_fits()) {
+    EXPECT_EQ(depth_of(fit, 0.0), 0.0) << fit.name;
+    EXPECT_NEAR(depth_of(fit, 0.1e-3), 0.1e-3, 1e-6) << fit.name;
+  }
+}
+
+TEST(OverlapDepth, DoesNotDependOnTheOrientationOfTriangles) {
+  const NominalFit& fit = fit_of("peg in its sleeve");
+  const auto sleeve = obstacle_of(geometry::flip_randomly(fit.others.front(), 1)).body;
+  const auto peg = part_of(geometry::flip_randomly(fit.part(-0.1e-3), 2));
+  EXPECT_NEAR(overlap_depth(*sleeve, *peg, Isometry3d::Identity()), 0.1e-3, 1e-6);
+}
+
+TEST(OverlapDepth, OfAPartThatIsStuckInASheetIsTheWayOut) {
+  const auto sheet = obstacle_of(geometry::make_plate({0.4, 0.4}, 2)).body;
+  EXPECT_NEAR(overlap_depth(*sheet, *test_support::cube(0.02), pose({0.0, 0.0, 0.0})), 0.01, 1e-4);
+  EXPECT_NEAR(overlap_depth(*sheet, *test_support::cube(0.02), pose({0.0, 0.0, 0.008})), 0.002, 1e-5);
+}
+
+TEST(Depenetration, NeverTakesAPartThroughAWall) {
+  FlushFit flush(fit_of("peg in its sleeve"), Isometry3d::Identity(), 0.1e-3, OverlapRule::kDepenetrate);
+  flush.lead(Vector3d::Zero());
+  EXPECT_LT(flush.moved_A().norm(), 2.0 * kMarginOfFits) << "there is no short way out";
+  flush.lead(3e-3 * Vector3d::UnitX());
+  EXPECT_LT(flush.moved_A().norm(), 2.0 * kMarginOfFits) << "the wall holds";
+  flush.lead(0.07 * Vector3d::UnitZ());
+  EXPECT_LT((flush.moved_A() - 0.07 * Vector3d::UnitZ()).norm(), 1e-9) << "but the hand can pull it out";
+  EXPECT_EQ(flush.collisions(), 0);
+}
+
+TEST(Depenetration, IsRefusedWhereNoWayOutIsCertain) {
+  const auto sheet = test_support::wall(0.0);
+  EXPECT_THROW(Sliding({sheet}, test_support::cube(0.02), Isometry3d::Identity(),
+                       {.rules = {.overlap = OverlapRule::kDepenetrate}}),
+               std::invalid_argument)
+      << "in the middle of a sheet";
+  EXPECT_THROW(Sliding({obstacle_of(geometry::make_box({0.02, 0.02, 0.02}, 12))}, test_support::cube(0.02),
+                       Isometry3d::Identity(), {.rules = {.overlap = OverlapRule::kDepenetrate}}),
+               std::invalid_argument)
+      << "one in the other, all faces in one";
+}
+
+TEST(TouchingParts, TwoOfThemComeApartAndNeverGetDeeper) {
+  const auto box = test_support::cube(0.02);
+  MultiPartSliding sliding({test_support::wall(1.0)},
+                           {{.part_V = box}, {.part_V = box, .X_WV_start = pose({0.02, 0.0, 0.0})}});
+  std::vector<Isometry3d> X_WG{Isometry3d::Identity(), pose({0.02, 0.0, 0.0})};
+  const reference::GridCheck check({{std::make_shared<const geometry::TriangleMesh>(box->tree.mesh())}});
+  const geometry::TriangleMesh smaller = geometry::make_box(Vector3d::Constant(0.02 - 0.6e-6), 12);
+  for (int i = 0; i < 100; ++i) {
+    X_WG[1].translation() -= Vector3d(0.1e-3, 0.0, 0.02e-3);
+    sliding.advance(X_WG);
+    ASSERT_FALSE(check.collides(smaller, sliding.result(0).X_WV.inverse() * sliding.result(1).X_WV)) << "tick " << i;
+  }
+  EXPECT_GT(sliding.result(1).pushing, 0);
+  ASSERT_FALSE(sliding.result(1).contacts.empty());
+  EXPECT_EQ(sliding.result(1).contacts.front().rider, -1) << "of the part itself";
+  for (int i = 0; i < 300; ++i) {
+    X_WG[1].translation() += Vector3d(0.1e-3, 0.0, 0.0);
+    sliding.advance(X_WG);
+  }
+  EXPECT_EQ(sliding.result(1).state, SlidingState::kFree);
+}
+
+}  // namespace
+}  // namespace glissade::haptics
