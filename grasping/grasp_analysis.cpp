@@ -51,10 +51,26 @@ std::string_view name_of(GraspType type) {
   return kNames[static_cast<std::size_t>(type)];
 }
 
-std::string reason_of(const devices::VisibleHand& hand) {
-  return reason_of({.type = static_cast<GraspType>(hand.grasp),
-                    .form = hand.form,
-                    .segments = TouchingSegments::from_bits(hand.touching)});
+std::string_view words_of(GraspLack lack) {
+  constexpr std::array<std::string_view, kGraspLacks> kWords{
+      "", "a grasp needs thumb and finger, or palm and a middle or outer segment",
+      "a grasp needs a finger as well, or the palm and a middle or outer segment",
+      "a grasp needs the thumb as well, or the palm and a middle or outer segment",
+      "a grasp needs a middle or outer segment as well"};
+  return kWords[static_cast<std::size_t>(lack)];
+}
+
+GraspLack Grasp::lack() const {
+  if (holds()) return GraspLack::kNothing;
+  if (segments.is_empty()) return GraspLack::kTouch;
+  if (segments.has_palm()) return GraspLack::kSegmentFartherOut;
+  return segments.has(Finger::kThumb) ? GraspLack::kFinger : GraspLack::kThumbOrPalm;
+}
+
+Grasp grasp_of(const devices::VisibleHand& hand) {
+  return {.type = static_cast<GraspType>(hand.grasp),
+          .form = hand.form,
+          .segments = TouchingSegments::from_bits(hand.touching)};
 }
 
 std::string reason_of(const Grasp& grasp) {

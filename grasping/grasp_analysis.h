@@ -30,6 +30,22 @@ using devices::GraspForm;
 
 std::string_view name_of(GraspType type);
 
+/// What the segments that touch an object lack to hold it, for whoever asks why nothing is grasped.
+enum class GraspLack : std::uint8_t {
+  kNothing,           ///< they hold it
+  kTouch,             ///< nothing touches
+  kFinger,            ///< the thumb touches, but neither palm nor fingers
+  kThumbOrPalm,       ///< fingers touch, but neither thumb nor palm
+  kSegmentFartherOut  ///< the palm touches, but no middle or outer segment
+};
+
+/// Number of lacks; their values run from 0 to kGraspLacks − 1.
+inline constexpr std::int32_t kGraspLacks = 5;
+
+/// What a grasp needs, such as "a grasp needs a finger as well, or the palm and a middle or outer segment"; empty for
+/// `kNothing`.
+std::string_view words_of(GraspLack lack);
+
 struct Grasp {
   GraspType type = GraspType::kNone;
   GraspForm form = GraspForm::kNone;
@@ -41,12 +57,14 @@ struct Grasp {
     return type == GraspType::kPrecision || type == GraspType::kPower || form == GraspForm::kCigarette ||
            form == GraspForm::kGravity;
   }
+  GraspLack lack() const;
 };
+
+/// The grasp of a hand with fingers as the haptic loop tells of it: without the object.
+Grasp grasp_of(const devices::VisibleHand& hand);
 
 /// A sentence without a stop, such as "power: the palm and the middle segment of the index touch".
 std::string reason_of(const Grasp& grasp);
-/// The same of a hand with fingers as the haptic loop tells of it.
-std::string reason_of(const devices::VisibleHand& hand);
 
 /// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
 /// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glissade/devices/glove_device.h>
@@ -22,6 +23,9 @@ struct HandShape {
 };
 
 enum class Finger { kNone, kThumb, kIndex, kMiddle, kRing, kLittle };
+
+/// Such as "middle finger"; empty for `kNone`.
+std::string_view name_of(Finger finger);
 
 /// Kinds of segments, named from the palm outwards. The inner segment of a finger is its proximal phalanx, that of the
 /// thumb its metacarpal.

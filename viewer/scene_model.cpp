@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/devices/haptic_state.h>
+#include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/viewer/scene_model.h>
 
@@ -95,8 +96,8 @@ void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d&
   }
 }
 
-/// The words for the numbers of a grasp in a frame: by kind, by form, and by bit of the segments that touch. The page
-/// has none of its own.
+/// The words for the numbers of a grasp in a frame: by kind, by form, by bit of the segments that touch, and by what
+/// they lack. The page has none of its own.
 nlohmann::json grasp_words() {
   nlohmann::json kinds = nlohmann::json::array();
   for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
@@ -107,7 +108,10 @@ nlohmann::json grasp_words() {
   nlohmann::json segments = nlohmann::json::array();
   for (const grasping::SegmentMeaning& segment : grasping::TouchingSegments::meaning_of_bits())
     segments.push_back(segment.segment == grasping::HandSegment::kNone ? "" : grasping::words_of(segment));
-  return {{"kinds", kinds}, {"forms", forms}, {"segments", segments}};
+  nlohmann::json lacks = nlohmann::json::array();
+  for (std::int32_t lack = 0; lack < grasping::kGraspLacks; ++lack)
+    lacks.push_back(grasping::words_of(static_cast<grasping::GraspLack>(lack)));
+  return {{"kinds", kinds}, {"forms", forms}, {"segments", segments}, {"lacks", lacks}};
 }
 
 }  // namespace

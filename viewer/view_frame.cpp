@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <glissade/base/byte_order.h>
+#include <glissade/grasping/grasp_analysis.h>
 #include <glissade/viewer/view_frame.h>
 
 namespace glissade::viewer {
@@ -112,6 +113,7 @@ std::string FrameMaker::make() {
     frame.add(static_cast<std::int32_t>(hand.visible.grasp));
     frame.add(static_cast<std::int32_t>(hand.visible.form));
     frame.add(hand.visible.touching);  // below 2^24, so that single precision has it exactly
+    frame.add(static_cast<std::int32_t>(grasping::grasp_of(hand.visible).lack()));
     frame.add(greatest(hand.joint_torques));
     const bool is_shown = h < models_.size() && models_[h] && devices::is_present(hand.visible.activity);
     if (!is_shown) {

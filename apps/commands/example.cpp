@@ -22,7 +22,8 @@ constexpr const char* kExampleDescription = "Write scenes, trajectories and mesh
 
 constexpr const char* kExampleFooter =
     "Writes some small files, with which the examples in the help of every command work. A file that is there already\n"
-    "is kept, if it has the same content; if it has another, nothing is written.\n"
+    "is kept, if it has the same content; if it has another, nothing is written. For ten things of a household there\n"
+    "are a scene and a hand that grasps and lifts the thing, such as grasp_mug.yaml and grasp_mug_hand.csv.\n"
     "\n"
     "Examples:\n"
     "  glissade example\n"

@@ -60,12 +60,13 @@ constexpr const char* kGraspFooter =
     "Output: one row per millisecond and hand with the visible posture, the segments that touch, what kind of grasp\n"
     "they make (none, push, precision, power) and of which object, the pose of this object, and how hard the tips of\n"
     "the fingers press. --objects writes one row per millisecond and movable object with its pose and the wrench on\n"
-    "the hands. If both go to files, the standard output says how long each hand held something, and how far each\n"
-    "part came.\n"
+    "the hands. If both go to files, the standard output says how long each hand held something, or why it held\n"
+    "nothing, and how far each part came.\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --out hand.csv\n"
+    "  glissade grasp grasp_mug.yaml --hand-trajectory grasp_mug_hand.csv --out hand.csv\n"
     "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --friction 0.3 --objects moved.csv\n"
     "  glissade grasp ball_and_tray.yaml --hand-trajectory ball_and_tray_hand.csv --out hand.csv --report grasp";
 

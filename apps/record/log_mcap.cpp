@@ -145,7 +145,7 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
                {"activity", devices::name_of(hand.visible.activity)},
                {"grasp", devices::name_of(hand.visible.grasp)}};
   if (hand.visible.activity == devices::HandActivity::kNone) return message;
-  message["grasp_reason"] = grasping::reason_of(hand.visible);
+  message["grasp_reason"] = grasping::reason_of(grasping::grasp_of(hand.visible));
   message["angles_rad"] = joints_of(hand.visible.angles, "_rad");
   message["torques_Nm"] = joints_of(hand.joint_torques, "_Nm");
   return message;

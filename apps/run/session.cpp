@@ -2,7 +2,9 @@
 #include <cmath>
 #include <numbers>
 
+#include <glissade/apps/durations.h>
 #include <glissade/apps/hash.h>
+#include <glissade/apps/run/missed_grasp.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/run/session_check.h>
 
@@ -51,8 +53,11 @@ HandSummary summarize_hand(const Session& session, std::size_t h, const SessionC
   summary.device = session.devices[h];
   summary.has_fingers = session.hand_models[h] != nullptr;
   summary.colliding_postures = check.colliding_ticks_of_hand(h);
+  MissedGrasp missed;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const devices::HapticHandState& hand = samples.hand(i, h);
+    missed.note(in_seconds(samples.tick(i).time - samples.tick(0).time), grasping::grasp_of(hand.visible),
+                hand.part >= 0);
     for (std::size_t k = 0; k < devices::kLimitReasons.size(); ++k)
       summary.limited_ticks[k] += hand.reasons.*devices::kLimitReasons[k].flag ? 1 : 0;
     summary.lagging_ticks += hand.contact_share < 0.5 ? 1 : 0;
@@ -67,6 +72,7 @@ HandSummary summarize_hand(const Session& session, std::size_t h, const SessionC
     const double step = (hand.force_W - samples.hand(i - 1, h).force_W).norm();
     summary.force_step_max_N = std::max(summary.force_step_max_N, step);
   }
+  if (summary.has_fingers) summary.missed_grasp = missed.text();
   return summary;
 }
 

@@ -65,6 +65,7 @@ struct HandSummary {
   std::int64_t grasps = 0;  ///< how often it took hold
   std::int64_t holding_ticks = 0;
   bool has_fingers = false;
+  std::string missed_grasp;             ///< of a hand with fingers that never took hold: why, as `MissedGrasp`
   std::int64_t colliding_postures = 0;  ///< of the ticks: of its segments with an obstacle or a part
   double joint_torque_max_Nm = 0.0;
   double force_max_N = 0.0;

@@ -130,6 +130,7 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, const Sessi
   rows.emplace_back("  time with reduced force", limits_text(hand, tick_s));
   rows.emplace_back("  grasps", formatted("%lld, held for %.3f s", static_cast<long long>(hand.grasps),
                                           tick_s * static_cast<double>(hand.holding_ticks)));
+  if (!hand.missed_grasp.empty()) rows.emplace_back("  why it held nothing", hand.missed_grasp);
   if (!hand.has_fingers) return;
   rows.emplace_back("  fingers", formatted("greatest torque %.2f Nm; %lld of %lld postures collide, by brute force",
                                            hand.joint_torque_max_Nm, static_cast<long long>(hand.colliding_postures),
@@ -233,6 +234,7 @@ nlohmann::json to_json(const HandSummary& hand, double tick_s) {
   return {{"device", hand.device},
           {"grasps", hand.grasps},
           {"holding_s", tick_s * static_cast<double>(hand.holding_ticks)},
+          {"missed_grasp", hand.missed_grasp.empty() ? nlohmann::json() : nlohmann::json(hand.missed_grasp)},
           {"has_fingers", hand.has_fingers},
           {"colliding_postures", hand.colliding_postures},
           {"joint_torque_max_Nm", hand.joint_torque_max_Nm},

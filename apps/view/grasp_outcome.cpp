@@ -16,7 +16,13 @@ std::string seconds_text(std::int64_t milliseconds) {
 
 GraspOutcome::GraspOutcome(const HapticScene& scene, const grasping::GraspSimulation& simulation,
                            std::vector<std::shared_ptr<const grasping::HandModel>> hands)
-    : scene_(scene), simulation_(simulation), models_(std::move(hands)), hands_(simulation.hand_count()) {}
+    : scene_(scene), simulation_(simulation), models_(std::move(hands)) {
+  std::vector<bool> can_be_held(scene.body_names.size(), false);
+  for (std::size_t p = 0; p < scene.parts.size(); ++p)
+    can_be_held[scene.obstacles.size() + p] = true;
+  for (std::size_t h = 0; h < simulation.hand_count(); ++h)
+    hands_.push_back({.missed = MissedGrasp(scene.body_names, can_be_held)});
+}
 
 void GraspOutcome::add(double time_s, const std::vector<std::optional<grasping::Posture>>& targets) {
   ++ticks_;
@@ -26,6 +32,7 @@ void GraspOutcome::add(double time_s, const std::vector<std::optional<grasping::
     const std::int32_t part = held ? static_cast<std::int32_t>(*held) : -1;
     hand.grasps += part >= 0 && part != hand.part ? 1 : 0;
     hand.holding_ms += part >= 0 ? 1 : 0;
+    hand.missed.note(time_s, simulation_.grasp(h), part >= 0);
     if (simulation_.activity(h) == devices::HandActivity::kWaiting && targets[h]) {
       if (hand.waiting_ms++ == 0) {
         hand.waits_first = "first at " + fixed_text(time_s, 3) + " s: its target is inside an object, there " +
@@ -40,7 +47,7 @@ std::vector<std::pair<std::string, std::string>> GraspOutcome::rows() const {
   std::vector<std::pair<std::string, std::string>> rows{{"duration", seconds_text(ticks_)}};
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     const Hand& hand = hands_[h];
-    std::string text = hand.grasps == 0 ? "holds nothing"
+    std::string text = hand.grasps == 0 ? "holds nothing: " + hand.missed.text()
                        : hand.grasps == 1
                            ? "1 grasp, holds for " + seconds_text(hand.holding_ms)
                            : std::to_string(hand.grasps) + " grasps, holds for " + seconds_text(hand.holding_ms);

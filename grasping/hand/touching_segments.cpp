@@ -25,13 +25,17 @@ std::array<SegmentMeaning, 24> TouchingSegments::meaning_of_bits() {
   return meaning;
 }
 
-std::string words_of(const SegmentMeaning& segment) {
-  constexpr std::array<std::string_view, 6> kFingers{
+std::string_view name_of(Finger finger) {
+  constexpr std::array<std::string_view, 6> kNames{
       "", "thumb", "index", "middle finger", "ring finger", "little finger"};
+  return kNames[static_cast<std::size_t>(finger)];
+}
+
+std::string words_of(const SegmentMeaning& segment) {
   constexpr std::array<std::string_view, 5> kSegments{"", "palm", "inner segment", "middle segment", "outer segment"};
   const std::string words = "the " + std::string(kSegments[static_cast<std::size_t>(segment.segment)]);
   if (segment.finger == Finger::kNone) return words;
-  return words + " of the " + std::string(kFingers[static_cast<std::size_t>(segment.finger)]);
+  return words + " of the " + std::string(name_of(segment.finger));
 }
 
 }  // namespace glissade::grasping

@@ -1,5 +1,6 @@
 /// Kinds of grasps by their contacts.
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -63,8 +64,42 @@ TEST(GraspAnalysis, TheHapticLoopTellsTheReasonInNumbers) {
   hand.form = grasp.form;
   hand.touching = grasp.segments.bits();
   EXPECT_EQ(hand.touching, 1 + (1 << (4 * 2 + 2)) + (1 << (4 * 5 + 3))) << "as the message describes it";
-  EXPECT_EQ(reason_of(hand), reason_of(grasp));
-  EXPECT_EQ(reason_of(devices::VisibleHand{}), "none: nothing touches");
+  EXPECT_EQ(reason_of(grasping::grasp_of(hand)), reason_of(grasp));
+  EXPECT_EQ(reason_of(grasping::grasp_of(devices::VisibleHand{})), "none: nothing touches");
+}
+
+TEST(GraspAnalysis, TellsWhatAGraspLacks) {
+  const auto lack_of = [](const std::vector<LinkContact>& contacts) { return grasp_of(contacts).lack(); };
+  const LinkContact thumb = touch(outer(Finger::kThumb));
+  const LinkContact index = touch(outer(Finger::kIndex));
+  EXPECT_EQ(lack_of({}), GraspLack::kTouch);
+  EXPECT_EQ(lack_of({thumb, touch(middle(Finger::kThumb))}), GraspLack::kFinger);
+  EXPECT_EQ(lack_of({index, touch(inner(Finger::kRing))}), GraspLack::kThumbOrPalm);
+  EXPECT_EQ(lack_of({touch(kPalm), touch(inner(Finger::kIndex)), touch(inner(Finger::kThumb))}),
+            GraspLack::kSegmentFartherOut);
+  EXPECT_EQ(lack_of({thumb, index}), GraspLack::kNothing);
+  EXPECT_EQ(lack_of({touch(kPalm), index}), GraspLack::kNothing);
+  const Vector3d down = -Vector3d::UnitZ();
+  EXPECT_EQ(lack_of({touch(outer(Finger::kIndex), down), touch(outer(Finger::kRing), down)}), GraspLack::kNothing)
+      << "a push that carries";
+}
+
+// Whatever one lacks makes a grasp of a push, once it has come.
+TEST(GraspAnalysis, WhatAGraspNeedsMakesItHold) {
+  const std::map<GraspLack, std::vector<LinkContact>> needs{
+      {GraspLack::kFinger, {touch(inner(Finger::kLittle))}},
+      {GraspLack::kThumbOrPalm, {touch(inner(Finger::kThumb))}},
+      {GraspLack::kSegmentFartherOut, {touch(middle(Finger::kLittle))}}};
+  for (const SegmentMeaning& segment : TouchingSegments::meaning_of_bits()) {
+    if (segment.segment == HandSegment::kNone) continue;
+    std::vector<LinkContact> contacts{touch(segment)};
+    const Grasp alone = grasp_of(contacts);
+    ASSERT_TRUE(needs.contains(alone.lack())) << words_of(segment);
+    EXPECT_FALSE(words_of(alone.lack()).empty());
+    for (const LinkContact& contact : needs.at(alone.lack()))
+      contacts.push_back(contact);
+    EXPECT_EQ(grasp_of(contacts).lack(), GraspLack::kNothing) << words_of(segment);
+  }
 }
 
 TEST(GraspAnalysis, FingersWithoutThumbAndPalmPush) {

@@ -115,6 +115,9 @@ TEST(SceneModel, HasTheWordsForGraspsAndTellsWhetherThereIsALoop) {
   EXPECT_EQ(words["segments"][0], "the palm");
   EXPECT_EQ(words["segments"][1], "") << "no segment has this bit";
   EXPECT_EQ(words["segments"][4 * 2 + 2], "the middle segment of the index");
+  ASSERT_EQ(words["lacks"].size(), 5u);
+  EXPECT_EQ(words["lacks"][0], "") << "nothing is lacking";
+  EXPECT_EQ(words["lacks"][2], "a grasp needs a finger as well, or the palm and a middle or outer segment");
   scene.has_loop = false;
   EXPECT_EQ(read_glb(scene_model(scene, 1000)).json["scenes"][0]["extras"]["has_loop"], false);
 }

@@ -59,7 +59,7 @@ Frame read_frame(const std::string& bytes) {
 
 constexpr std::size_t kHead = 10;
 constexpr std::size_t kPart = 18;
-constexpr std::size_t kHand = 19;
+constexpr std::size_t kHand = 20;
 constexpr std::size_t kContact = 7;
 constexpr std::size_t kPatch = 9;
 
@@ -135,9 +135,20 @@ TEST(ViewFrame, HasThePosesOfAHandsLinks) {
   EXPECT_EQ(frame.numbers[hand + 14], 3.0F);  // power
   EXPECT_EQ(frame.numbers[hand + 15], 6.0F);  // gravity
   EXPECT_EQ(frame.numbers[hand + 16], 8388609.0F);
-  ASSERT_EQ(frame.numbers[hand + 18], static_cast<float>(grasping::kHandLinks));
-  EXPECT_EQ(frame.numbers[hand + 19 + 2], 0.125F);  // the root, z
+  EXPECT_EQ(frame.numbers[hand + 17], 0.0F);  // it lacks nothing
+  ASSERT_EQ(frame.numbers[hand + 19], static_cast<float>(grasping::kHandLinks));
+  EXPECT_EQ(frame.numbers[hand + 20 + 2], 0.125F);  // the root, z
   EXPECT_EQ(frame.numbers.size(), hand + kHand + 7 * grasping::kHandLinks + kContact + kPatch);
+}
+
+TEST(ViewFrame, TellsWhatAHandLacksThatOnlyPushes) {
+  FrameMaker maker(scene_far_away());
+  devices::HapticState state = some_state();
+  state.hands[0].visible.grasp = devices::GraspKind::kPush;
+  state.hands[0].visible.touching = 1 << (4 * 2 + 3);  // the outer segment of the index
+  maker.add(state);
+  EXPECT_EQ(read_frame(maker.make()).numbers[kHead + kPart + 17],
+            static_cast<float>(grasping::GraspLack::kThumbOrPalm));
 }
 
 TEST(ViewFrame, AHandThatWaitsOrIsLostWithNothingIsNotShown) {

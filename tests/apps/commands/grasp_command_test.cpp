@@ -161,6 +161,26 @@ TEST_F(GraspCommand, TellsThatAHandWaits) {
                                      "is inside an object, there [a-z_]+ in 'wall'\n"));
 }
 
+// Straight fingers push the ball along with their tips.
+TEST_F(GraspCommand, TellsWhyNothingIsGrasped) {
+  const std::string scene =
+      folder.write("ball.yaml",
+                   "objects:\n- {name: ball, movable: true, shape: {type: sphere}, pose: {position_m: [0.3, 0, 0]}}\n"
+                   "- {name: floor, shape: {type: plate}, pose: {position_m: [0, 0, -1]}}\n");
+  const std::string columns = read_text_file(kHand).substr(0, read_text_file(kHand).find('\n'));
+  std::string zeros;
+  for (int v = 0; v < 22; ++v)
+    zeros += ",0";
+  const std::string hand =
+      folder.write("push.csv", columns + "\n0,0,0,0,1,0,0,0" + zeros + "\n0.5,0.1,0,0,1,0,0,0" + zeros + "\n");
+  const ProgramResult run = glissade({"grasp", scene, "--hand-trajectory", hand, "--out", hands});
+  ASSERT_EQ(run.exit_code, 0) << run.standard_error;
+  EXPECT_THAT(run.standard_output,
+              testing::ContainsRegex("hand 0 +holds nothing: the [a-z, ]+ alone pushed 'ball' from "
+                                     "0\\.[0-9]+ to 0\\.5[0-9]+ s: a grasp needs the thumb as "
+                                     "well, or the palm and a middle or outer segment\n"));
+}
+
 TEST_F(GraspCommand, TellsNothingAmongTheRowsOfATable) {
   const ProgramResult table = glissade({"grasp", kScene, "--hand-trajectory", first_seconds()});
   EXPECT_EQ(table.exit_code, 0) << table.standard_error;

@@ -83,6 +83,16 @@ TEST(SessionText, LeavesTheStagesOfTheSearchToWhoeverAsks) {
   }
 }
 
+TEST(SessionText, SaysWhyAHandWithFingersHeldNothing) {
+  const Session session = session_of(10);
+  SessionSummary summary = summary_of(session);
+  EXPECT_THAT(to_text(summary, session, false), Not(HasSubstr("held nothing")));
+  EXPECT_TRUE(to_json(summary, session)["hands"][0]["missed_grasp"].is_null());
+  summary.hands[0].missed_grasp = "it touched nothing";
+  EXPECT_THAT(to_text(summary, session, false), HasSubstr("why it held nothing        it touched nothing\n"));
+  EXPECT_EQ(to_json(summary, session)["hands"][0]["missed_grasp"], "it touched nothing");
+}
+
 TEST(SessionText, WarnsIfMostCallsEndedEarlyInRealTime) {
   Session session = session_of(10);
   session.calls.calls = 10;

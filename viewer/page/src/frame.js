@@ -80,6 +80,7 @@ function hand(reader) {
     grasp: reader.number(),
     form: reader.number(),
     touching: reader.number(),
+    lack: reader.number(),
     jointTorque: reader.number(),
     links: reader.list(reader.number(), () => reader.pose()),
   };

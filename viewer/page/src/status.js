@@ -12,6 +12,7 @@ function rowsOfHand(hand, name, info) {
   const rows = [[name, `holds ${holds}`]];
   if (hand.activity > 0) rows.push(['hand', ACTIVITIES[hand.activity]]);
   if (hand.grasp > 0) rows.push(['grasp', graspReason(hand, info.grasp_words)]);
+  if (hand.part < 0 && hand.grasp > 0 && hand.lack > 0) rows.push(['not held', info.grasp_words.lacks[hand.lack]]);
   const hasFingers = hand.links.length > 0;
   if (hasFingers && !info.has_loop) return rows; // no device feels what they do
   rows.push(['force', number(length(hand.force), 2, 'N')], ['torque', number(length(hand.torque), 3, 'Nm')]);
