@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_analysis.h>
 #include <glissade/viewer/view_frame.h>
 
 namespace glissade::viewer {
