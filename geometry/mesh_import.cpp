@@ -87,7 +87,6 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
   ImportedMesh result;
   result.warnings = std::move(soup.warnings);
   result.polygons_triangulated = soup.polygons_triangulated;
-  result.warnings = std::move(soup.warnings);
   result.mesh = weld(soup.mesh);
   result.degenerate_triangles = drop_degenerate(result.mesh);
   if (result.degenerate_triangles > 0) {

@@ -12,6 +12,7 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/example_files.h>
 #include <glissade/apps/files/file_checks.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {

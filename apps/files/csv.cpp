@@ -9,6 +9,7 @@
 #include <glissade/apps/files/csv_columns.h>
 #include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/pose_rules.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {

@@ -5,6 +5,7 @@
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>

@@ -10,6 +10,7 @@
 #include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>

@@ -6,6 +6,7 @@
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/poses_file.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/text.h>
 

@@ -44,7 +44,8 @@ inline constexpr const char* kSlidingChoiceHelp =
     "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
     "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
     "                      With --friction, press lightly: the spiral pulls with 1.6 N at most.\n"
-    "  --depenetrate       A part that starts in obstacles, deeper than its margin, moves out at 0.2 m/s at most, on a\n"
+    "  --depenetrate       A part that starts in obstacles, deeper than its margin, moves out at 0.2 m/s at most, on "
+    "a\n"
     "                      short straight way on which it gets no deeper into any of them. Where there is none, the\n"
     "                      hand can draw the part out: only deeper in, and through a wall, it never comes.";
 

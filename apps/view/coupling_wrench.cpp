@@ -7,8 +7,7 @@ namespace {
 haptics::Wrench wrench_of(const haptics::SlidingResult& result, const haptics::CouplingStiffness& stiffness,
                           const geometry::Displacement& error, const Eigen::Vector3d& p_Vref) {
   if (result.pushing == 0) return {};
-  return haptics::about_point(haptics::spring_wrench(stiffness, error), result.X_WT * p_Vref,
-                              result.X_WV * p_Vref);
+  return haptics::about_point(haptics::spring_wrench(stiffness, error), result.X_WT * p_Vref, result.X_WV * p_Vref);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 
 #include "glissade_program.h"
@@ -45,7 +46,8 @@ TEST(HelpExamples, WorkAsTheyArePasted) {
       if (test_support::needs_network(example) || (test_support::kSanitized && is_slow)) continue;
       SCOPED_TRACE(example);
       const ProgramResult result = run_example(example, folder);
-      const bool is_too_fast = result.standard_error.find("missed its goal") != std::string::npos;  // in a second, with fingers
+      const bool is_too_fast =
+          result.standard_error.find("missed its goal") != std::string::npos;  // in a second, with fingers
       EXPECT_TRUE(result.exit_code == 0 || is_too_fast) << result.standard_error;
     }
   }

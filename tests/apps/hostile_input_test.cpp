@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 
 #include "glissade_program.h"

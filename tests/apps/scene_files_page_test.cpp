@@ -16,6 +16,7 @@
 
 #include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/latency/latency_output.h>
 #include <glissade/apps/record/mcap_schemas.h>

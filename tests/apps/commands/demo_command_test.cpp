@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 
 #include "glissade_program.h"

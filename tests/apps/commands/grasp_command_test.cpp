@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/hand_model.h>

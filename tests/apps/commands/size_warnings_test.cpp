@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/commands/size_warnings.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/glove_device.h>
 

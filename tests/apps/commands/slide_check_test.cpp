@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 
 #include "glissade_program.h"
@@ -212,7 +213,7 @@ TEST_F(AssemblyCheck, TellsWhereItStandsBeforeItEnds) {
 }
 
 TEST_F(AssemblyCheck, ForceAndTorqueAreThoseOfTheTableOfTheMotion) {
-  // Held by a corner, so that the torque depends on the point that it is about.
+  // Held by a corner and turned, so that there is a torque, and it depends on the point that it is about.
   const std::string by_corner = folder.write("corner.yaml",
                                              "objects:\n"
                                              "  - {name: box, movable: true, compliance_point_m: [0.05, 0.03, 0.02], "
@@ -220,8 +221,9 @@ TEST_F(AssemblyCheck, ForceAndTorqueAreThoseOfTheTableOfTheMotion) {
                                              "0.06, size_z_m: 0.04}}\n"
                                              "  - {name: floor, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
   const std::string motion = folder.path("out.csv");
+  const std::string turned = trajectory("turned.csv", "5,0,0,0.03,1,0,0,0\n5.1,0.02,0,0.01,0.9962,0.0,0.0872,0\n");
   const ProgramResult result = test_support::glissade(
-      {"slide", by_corner, "--part", "box", "--trajectory", below, "--summary", "-", "--out", motion});
+      {"slide", by_corner, "--part", "box", "--trajectory", turned, "--summary", "-", "--out", motion});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   double torque_Nm = 0.0;
   for (const test_support::CsvRow& row : test_support::rows_of(read_text_file(motion))) {
@@ -229,7 +231,7 @@ TEST_F(AssemblyCheck, ForceAndTorqueAreThoseOfTheTableOfTheMotion) {
         torque_Nm, std::hypot(std::stod(row.at("tx_Nm")), std::stod(row.at("ty_Nm")), std::stod(row.at("tz_Nm"))));
   }
   EXPECT_GT(torque_Nm, 0.1);
-  EXPECT_NEAR(checks_of(result.standard_output)["below.csv"]["torque_max_Nm"], torque_Nm, 1e-9);
+  EXPECT_NEAR(checks_of(result.standard_output)["turned.csv"]["torque_max_Nm"], torque_Nm, 1e-9);
 }
 
 TEST_F(AssemblyCheck, OneRunWritesEverything) {

@@ -146,7 +146,7 @@ TEST(CsvWriter, WrittenNumbersReadBackAsTheSameBits) {
 
 TEST(CsvWriter, AFileThatCannotBeMadeIsNamed) {
   const TemporaryFolder folder;
-  expect_bad_input([&] { CsvWriter(folder.path("none/out.csv"), kColumns); }, {"none/out.csv", "No such file"});
+  expect_bad_input([&] { CsvWriter(folder.path("none/out.csv"), kColumns); }, {"none/out.csv", "there is no folder"});
 }
 
 TEST(CsvWriter, AFullDiskIsAFailureWhileRunning) {

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/event_log.h>
 

@@ -13,6 +13,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/record/mcap_writer.h>
 #include <glissade/apps/text.h>
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/files/scene_file.h>
+#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/record/replay_audiences.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/haptic_scene.h>
