@@ -115,6 +115,8 @@ std::string doubt_of_positions(const Eigen::AlignedBox3d& positions, const Hapti
     for (int corner = 0; corner < 8; ++corner)
       around.extend(object.X_WB * box_B.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }
+  for (const ScenePart& part : scene.parts)  // whose origin may be far from its mesh
+    around.extend(Eigen::Vector3d(part.X_WV_start.translation()));
   if (scene.X_WGoal) around.extend(Eigen::Vector3d(scene.X_WGoal->translation()));
   const double beyond_m = (positions.max() - around.max()).cwiseMax(around.min() - positions.min()).maxCoeff();
   if (beyond_m <= std::max(kFar_m, kFarSizes * around.diagonal().norm())) return "";

@@ -83,7 +83,7 @@ TEST_F(RecordingInRealTime, IsRepeatedToTheBit) {
   const test_support::ProgramResult result = test_support::glissade({"replay", log_, "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_EQ(outcome(result)["same"], true);
-  EXPECT_GE(outcome(result)["ticks"], 500);
+  EXPECT_GE(outcome(result)["ticks"], 300);
 }
 
 TEST_F(RecordingCommands, AReplayTellsWhereItsReportIs) {
