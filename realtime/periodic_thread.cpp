@@ -65,7 +65,7 @@ ThreadScheduling schedule_this_thread(int priority) noexcept {
   ThreadScheduling scheduling;
   scheduling.has_locked_memory = memory_is_locked.load(std::memory_order_relaxed);
   if (priority > 0) scheduling.is_fifo = set_policy(SCHED_FIFO, priority);
-  if (priority >= kLinkPriority && !scheduling.is_fifo) request_short_slices();
+  if (priority >= kLinkPriority && !scheduling.is_fifo && sched_getscheduler(0) == SCHED_OTHER) request_short_slices();
   constexpr unsigned long kOneNanosecond = 1;  // 0 would restore the default
   scheduling.has_minimal_timer_slack = prctl(PR_SET_TIMERSLACK, kOneNanosecond, 0UL, 0UL, 0UL) == 0;
   return scheduling;

@@ -13,23 +13,41 @@ namespace {
 
 /// Metres: how much deeper than at its start a part may overlap others, a twentieth of the usual margins and more.
 constexpr double kDeeper_m = 1e-6;
+/// Metres: parts that are less apart may count as touching.
+constexpr double kTouching_m = 1e-7;
+
+struct StartingPart {
+  std::shared_ptr<const haptics::SlidingPart> part_V;
+  Eigen::Isometry3d X_WV;
+};
+
+/// Those in hands, then those that move on their own.
+std::vector<StartingPart> starting_parts(const HapticScene& scene) {
+  std::vector<StartingPart> parts;
+  for (const ScenePart& part : scene.parts)
+    parts.push_back({part.part_V, part.X_WV_start});
+  for (const haptics::ScriptedPart& part : scene.moving)
+    parts.push_back({part.part_B, part.script_X_WB.pose_at(part.start)});
+  return parts;
+}
 
 /// What must never collide of a part: all of it, or if it touches or overlaps others at its start, what is inside of
 /// the faces that do.
-std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& scene, std::size_t part) {
-  const std::shared_ptr<const haptics::SlidingPart>& part_V = scene.parts[part].part_V;
-  const Eigen::Isometry3d& X_WV = scene.parts[part].X_WV_start;
+std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& scene,
+                                                            const std::vector<StartingPart>& parts, std::size_t part) {
+  const std::shared_ptr<const haptics::SlidingPart>& part_V = parts[part].part_V;
+  const Eigen::Isometry3d& X_WV = parts[part].X_WV;
   collision::QueryWorkspace workspace;
   std::optional<double> depth;
   const auto look_at = [&](const haptics::ContactBody& body, const Eigen::Isometry3d& X_WB) {
     const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * X_WV;
-    if (!collision::intersects(body.tree, part_V->tree, X_BV, workspace)) return;
+    if (!collision::intersects(body.tree, part_V->tree, X_BV, workspace, kTouching_m)) return;
     depth = std::max(depth.value_or(0.0), haptics::overlap_depth(body, *part_V, X_BV));
   };
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     look_at(*obstacle.body, obstacle.X_WO);
   for (std::size_t other = 0; other < part; ++other)
-    look_at(*scene.parts[other].part_V, scene.parts[other].X_WV_start);
+    look_at(*parts[other].part_V, parts[other].X_WV);
   if (!depth) return {part_V, &part_V->tree.mesh()};
   return std::make_shared<const geometry::TriangleMesh>(haptics::inset_mesh(*part_V, *depth + kDeeper_m));
 }
@@ -42,10 +60,9 @@ SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& sc
       obstacles_(scene.placed_obstacles),
       colliding_of_parts_(samples.parts(), 0),
       colliding_of_hands_(samples.hands(), 0) {
-  for (std::size_t part = 0; part < scene.parts.size(); ++part)
-    meshes_.push_back(mesh_to_check(scene, part));
-  for (const haptics::ScriptedPart& part : scene.moving)
-    meshes_.emplace_back(part.part_B, &part.part_B->tree.mesh());
+  const std::vector<StartingPart> parts = starting_parts(scene);
+  for (std::size_t part = 0; part < parts.size(); ++part)
+    meshes_.push_back(mesh_to_check(scene, parts, part));
   for (const auto& mesh : meshes_)
     parts_.emplace_back(std::vector<reference::PlacedMesh>{{mesh}});
   const auto end = std::chrono::steady_clock::now() + patience.value_or(std::chrono::milliseconds(0));

@@ -84,6 +84,7 @@ void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
   GLISSADE_ASSERT(is_present());
   const Posture& posture = clasp_.posture();
   part_ = part;
+  is_late_ = false;
   held_.begin(clasp_.contacts());
   X_PV_ = (posture.X_WR * palm(posture.values)).inverse(Eigen::Isometry) * X_WV;
 }
@@ -116,8 +117,9 @@ void GraspingHand::advance() {
   if (part_) posture_.X_WR = clasp_.posture().X_WR;
   clasp_.advance(posture_);
   if (!is_late_ || !is_present()) return;
-  is_late_ = std::any_of(clasp_.contacts().begin(), clasp_.contacts().end(),
-                         [](const LinkContact& touch) { return touch.depth > Push::kPress_m; });
+  is_late_ = std::any_of(clasp_.contacts().begin(), clasp_.contacts().end(), [&](const LinkContact& touch) {
+    return touch.contact.obstacle >= first_part_ && touch.depth > Push::kPress_m;
+  });
 }
 
 std::span<const LinkContact> GraspingHand::contacts() const {

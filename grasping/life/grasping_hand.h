@@ -44,7 +44,7 @@ class GraspingHand {
   bool is_present() const { return clasp_.state() == ClaspState::kClasping; }
   /// A hand that is lost and holds nothing is nowhere, and grasps nothing.
   void vanish();
-  /// Whether the hand has been found again and still presses on something: what has been missed is no push.
+  /// Whether the hand has been found again and still presses on a part: what has been missed is no push.
   bool is_late() const { return is_late_; }
 
   /// Takes hold of the part at X_WV; only a hand that is present can.

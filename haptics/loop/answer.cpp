@@ -10,7 +10,7 @@ namespace {
 constexpr double kLongestCatchUp_ms = 250.0;
 // A call that comes later than this goes in steps of this, or in the largest number of them.
 constexpr double kStep_ms = 5.0;
-constexpr double kMostSteps = 10.0;
+constexpr double kMostSteps = 5.0;
 
 Eigen::Isometry3d between(const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to, double share) {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -71,9 +71,12 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   const double milliseconds =
       std::clamp(std::chrono::duration<double, std::milli>(passed).count(), 0.0, kLongestCatchUp_ms);
   const double steps = answered_ ? std::clamp(std::floor(milliseconds / kStep_ms), 1.0, kMostSteps) : 1.0;
-  for (double step = 1.0; step < steps; ++step)
+  const std::int64_t ended_early = sliding_.call_statistics().ended_early;
+  double step = 1.0;
+  // Where the work of one step is as much as a call may do, more steps would make the next call later still.
+  for (; step < steps && sliding_.call_statistics().ended_early == ended_early; ++step)
     advance(between(*answered_, ghosts, step / steps), milliseconds / steps);
-  advance(ghosts, milliseconds / steps);
+  advance(ghosts, milliseconds * (steps - step + 1.0) / steps);
   answered_ = ghosts;
   ++sequence_;
   renew_contact_set(sliding_, sequence_, time_of_answered(), scratch_, set);

@@ -87,6 +87,7 @@ std::optional<double> Inset::overlap(const ContactBody& body, const Eigen::Isome
   while (is_any_left && meets()) {
     too_little = enough;
     enough *= 2.0;
+    if (enough > tree_->radius()) return std::nullopt;
     is_any_left = move(enough);
   }
   while (too_little > 0.0 && enough - too_little > std::max(resolution, kDepthPrecision * enough)) {

@@ -14,15 +14,15 @@ let door;
 let hand;
 before(() => {
   folder = mkdtempSync(join(tmpdir(), 'glissade_mcap_'));
-  door = recorded('door');
-  hand = recorded('hand', '--fingers');
+  door = recorded('door', '--seconds', '2');
+  hand = recorded('hand', '--seconds', '6', '--fingers');
 });
 after(() => rmSync(folder, { recursive: true }));
 
-// Records a demonstration of two seconds; returns its log as MCAP and as tables.
+// Records a demonstration; returns its log as MCAP and as tables.
 function recorded(name, ...options) {
   const path = (ending) => join(folder, name + ending);
-  execFileSync(PROGRAM, ['demo', '--offline', '--seconds', '2', '--record', path('.lcmlog'), ...options]);
+  execFileSync(PROGRAM, ['demo', '--offline', '--record', path('.lcmlog'), ...options]);
   execFileSync(PROGRAM, ['log', 'to-mcap', path('.lcmlog'), path('.mcap')]);
   execFileSync(PROGRAM, ['log', 'to-csv', path('.lcmlog'), path('')]);
   const table = (file) => rowsOf(join(path(''), file));
