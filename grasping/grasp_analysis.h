@@ -30,7 +30,7 @@ using devices::GraspForm;
 
 std::string_view name_of(GraspType type);
 
-/// What the segments that touch an object lack to hold it, for whoever asks why nothing is grasped.
+/// Why nothing is grasped: what the segments that touch an object lack to hold it.
 enum class GraspLack : std::uint8_t {
   kNothing,           ///< they hold it
   kTouch,             ///< nothing touches

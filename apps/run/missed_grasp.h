@@ -16,7 +16,8 @@ namespace glissade::apps {
 /// Follows a hand with fingers, and remembers its longest touch that made no grasp.
 class MissedGrasp {
  public:
-  /// The names of all bodies by `Grasp::object`, and which of them hands can hold. None: the grasps have no object.
+  /// The names of all bodies by `Grasp::object`, and which of them hands can hold. Without names, sentences name no
+  /// object.
   explicit MissedGrasp(std::vector<std::string> names = {}, std::vector<bool> can_be_held = {})
       : names_(std::move(names)), can_be_held_(std::move(can_be_held)) {}
 

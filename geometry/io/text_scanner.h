@@ -93,7 +93,7 @@ class WordScanner {
   std::string_view rest_of_line_;
 };
 
-/// Whether the word is a number that is none as old C libraries write it: "-1.#IND", "1.#QNAN0", "1.#INF".
+/// Whether the word stands for NaN or infinity, as old C libraries write them: "-1.#IND", "1.#QNAN0", "1.#INF".
 inline bool is_old_nan(std::string_view word) {
   if (word.starts_with('+') || word.starts_with('-')) word.remove_prefix(1);
   if (!word.starts_with("1.#")) return false;

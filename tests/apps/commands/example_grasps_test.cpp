@@ -39,7 +39,7 @@ TEST(ExampleGrasps, AreOfTenThings) {
 class ExampleGrasp : public testing::TestWithParam<std::string> {};
 
 TEST_P(ExampleGrasp, EndsInAHold) {
-  if (test_support::kSanitized) GTEST_SKIP() << "too slow";
+  if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; the tests of grasps run through the same code";
   const test_support::TemporaryFolder folder;
   for (const ExampleFile& file : example_grasps())
     folder.write(file.name, file.text);
