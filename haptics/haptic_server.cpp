@@ -48,16 +48,14 @@ HapticServer::HapticServer(const std::vector<HandOfServer>& hands, LoopSimulatio
   simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock,
       realtime::PeriodicThreadOptions{.period = kTickPeriod,
-                                      .fifo_priority = options.is_real_time ? realtime::kSimulationPriority : 0,
+                                      .fifo_priority = realtime::kSimulationPriority,
                                       .fifo_share = realtime::kSimulationShare,
                                       .name = "simulation"},
       [this](const realtime::PeriodicTick&) { return simulation_tick(); });
   haptic_thread_ = std::make_unique<realtime::PeriodicThread>(
       clock,
-      realtime::PeriodicThreadOptions{.period = options.period,
-                                      .fifo_priority = options.is_real_time ? realtime::kHapticPriority : 0,
-                                      .spin = options.spin,
-                                      .name = "haptic"},
+      realtime::PeriodicThreadOptions{
+          .period = options.period, .fifo_priority = realtime::kHapticPriority, .spin = options.spin, .name = "haptic"},
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 

@@ -39,9 +39,6 @@ struct HapticServerOptions {
   /// Number of counted ticks of the haptic thread after which the force fades and that thread ends by itself; with 0 it
   /// runs until `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
-  /// Whether both threads request priorities under SCHED_FIFO: `realtime::kHapticPriority`, and
-  /// `realtime::kSimulationPriority` for a share of the time. A thread that searches asks for the place behind these.
-  bool is_real_time = true;
   /// Time before each deadline for which the haptic thread reads the clock instead of sleeping, at most half of the
   /// period: its ticks start on time, and it occupies a processor so much longer.
   std::chrono::nanoseconds spin{0};

@@ -54,7 +54,7 @@ LinkedGlove::LinkedGlove(const std::shared_ptr<devices::LcmBus>& bus, SharedStam
   thread_ = std::make_unique<realtime::PeriodicThread>(
       clock_,
       realtime::PeriodicThreadOptions{
-          .period = kLatencyGlovePeriod, .fifo_priority = kLatencyFifoPriority, .name = "glove"},
+          .period = kLatencyGlovePeriod, .fifo_priority = realtime::kHapticPriority, .name = "glove"},
       [this](const realtime::PeriodicTick& now) {
         tick(now.deadline);
         return true;
@@ -79,7 +79,7 @@ DirectGlove::DirectGlove(SharedStamps& received, SharedStamps& arrivals) : recei
   driver_ = std::make_unique<realtime::PeriodicThread>(
       clock_,
       realtime::PeriodicThreadOptions{
-          .period = kLatencyGlovePeriod, .fifo_priority = kLatencyFifoPriority, .name = "glove"},
+          .period = kLatencyGlovePeriod, .fifo_priority = realtime::kHapticPriority, .name = "glove"},
       [this](const realtime::PeriodicTick& now) {
         const devices::GloveState& state = hand_.step(now.deadline, commands_.latest());
         states_.publish(state);

@@ -6,9 +6,6 @@
 
 namespace glissade::apps {
 
-/// SCHED_FIFO priority that the haptic loop, the bare loop, the glove and the ping-pong ask for.
-inline constexpr int kLatencyFifoPriority = 80;
-
 /// Of the haptic loop and of the bare loop.
 inline constexpr std::chrono::nanoseconds kLatencyTick{std::chrono::milliseconds(1)};
 

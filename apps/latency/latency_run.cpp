@@ -154,7 +154,7 @@ class LatencyRun {
   void run_loop(StampedGlove& glove, const haptics::HapticServer::Sink& sink, LinkFigures& figures) {
     haptics::MultiPartSliding sliding = make_sliding_for_latency();
     haptics::HapticServer server({{&glove}}, sliding, clock_, sink, {.period = kLatencyTick, .ticks = ticks()});
-    realtime::PeriodicThread bare_loop(clock_, {.period = kLatencyTick, .fifo_priority = kLatencyFifoPriority},
+    realtime::PeriodicThread bare_loop(clock_, {.period = kLatencyTick, .fifo_priority = realtime::kHapticPriority},
                                        [](const realtime::PeriodicTick&) { return true; });
     const std::chrono::nanoseconds give_up = clock_.now() + slice_ + kPatience;
     while (!server.is_done() && !server.has_failed() && clock_.now() < give_up) {

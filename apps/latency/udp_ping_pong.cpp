@@ -89,7 +89,7 @@ void send_pongs(const PingPongAddress& address, const std::atomic<bool>& should_
   const GroupSocket socket(address.ping_port, address.pong_port);
   const std::vector<std::uint8_t> pong = datagram_like<glissade::glove_command_t>("GLOVE_COMMAND");
   realtime::SteadyClock clock;
-  realtime::PeriodicThread thread(clock, {.fifo_priority = kLatencyFifoPriority, .name = "pong"},
+  realtime::PeriodicThread thread(clock, {.fifo_priority = realtime::kHapticPriority, .name = "pong"},
                                   [&](const realtime::PeriodicTick&) {
                                     while (!should_end.load()) {
                                       if (socket.receive()) socket.send(pong);
@@ -104,7 +104,7 @@ void send_pings(const PingPongAddress& address, const std::function<bool()>& go_
   const GroupSocket socket(address.pong_port, address.ping_port);
   const std::vector<std::uint8_t> ping = datagram_like<glissade::glove_state_t>("GLOVE_STATE");
   realtime::SteadyClock clock;
-  realtime::PeriodicThread thread(clock, {.fifo_priority = kLatencyFifoPriority, .name = "ping"},
+  realtime::PeriodicThread thread(clock, {.fifo_priority = realtime::kHapticPriority, .name = "ping"},
                                   [&](const realtime::PeriodicTick&) {
                                     const std::chrono::nanoseconds sent = clock.now();
                                     if (socket.send(ping) && socket.receive()) round_trip.record(clock.now() - sent);
