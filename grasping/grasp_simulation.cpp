@@ -9,7 +9,7 @@
 
 #include "life/finger_rows.h"
 #include "life/grasping_hand.h"
-#include "life/push.h"
+#include "life/loose_parts.h"
 #include "life/told_hand.h"
 
 namespace glissade::grasping {
@@ -21,6 +21,13 @@ ClaspRules rules_of_hands(const GraspRules& rules) {
   ClaspRules of_hands = rules.clasp;
   if (!of_hands.work_budget) of_hands.work_budget = work_of_hand(rules.sliding);
   return of_hands;
+}
+
+std::vector<haptics::Metaphor> metaphors_of(const std::vector<haptics::HeldPart>& parts) {
+  std::vector<haptics::Metaphor> metaphors;
+  for (const haptics::HeldPart& part : parts)
+    metaphors.push_back(part.metaphor);
+  return metaphors;
 }
 
 std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hands, double margin) {
@@ -40,7 +47,7 @@ class GraspSimulation::Life {
         hands_(make_hands(hands, fixed, parts, rules_of_hands(rules))),
         parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
-        pushes_(parts.size()),
+        loose_parts_(metaphors_of(parts)),
         answers_(hands.size()) {
     if (hands.size() > haptics::kMaxHands)
       throw std::invalid_argument("at most " + std::to_string(haptics::kMaxHands) + " hands can grasp, not " +
@@ -48,7 +55,6 @@ class GraspSimulation::Life {
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
     for (std::size_t p = 0; p < parts.size(); ++p) {
-      metaphors_.push_back(parts[p].metaphor);
       if (!parts_.is_scripted(p)) parts_.release(p);
       for (GraspingHand& hand : hands_)
         hand.clasp().place_free_object(p, parts_.result(p).X_WV);
@@ -68,7 +74,8 @@ class GraspSimulation::Life {
       if (aim(h, targets[h], milliseconds) && hands_[h].part()) settle(*hands_[h].part());
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      X_WG_[p] = is_held(p) ? wish(p).value_or(X_WG_[p]) : yielding(p);  // held: where it was if all hands are lost
+      X_WG_[p] = is_held(p) ? wish(p).value_or(X_WG_[p])
+                            : loose_parts_.push(p, milliseconds, parts_);  // held: where it was if all hands are lost
     move(milliseconds);
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       const std::optional<std::size_t> before = hands_[h].part();
@@ -76,7 +83,9 @@ class GraspSimulation::Life {
       if (before) settle(*before);
       if (hands_[h].part()) settle(*hands_[h].part());
     }
-    note_pushes();
+    for (std::size_t p = 0; p < X_WG_.size(); ++p) {
+      if (!is_held(p)) loose_parts_.look(p, hands_, parts_);
+    }
   }
 
   void move_cart(std::size_t h, const Posture& posture) {
@@ -97,24 +106,24 @@ class GraspSimulation::Life {
       hold(h, ghost.part < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(ghost.part)));
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      X_WG_[p] = ghosts.parts[p].is_held ? ghosts.parts[p].X_WG : yielding(p);
+      X_WG_[p] = ghosts.parts[p].is_held ? ghosts.parts[p].X_WG : loose_parts_.push(p, milliseconds, parts_);
     move(milliseconds);
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       if (!hands_[h].is_lost()) decide(h, grasped_part(hands_[h]));
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p) {
-      if (!ghosts.parts[p].is_held) note_push(p);  // another hand, without fingers, may hold it
+      if (!ghosts.parts[p].is_held) loose_parts_.look(p, hands_, parts_);  // another hand, without fingers, may hold it
     }
   }
 
   void take_part(std::size_t p, const Eigen::Isometry3d& X_WG) {
-    end_push(p);
+    loose_parts_.end_push(p, parts_);
     const auto number = static_cast<std::int32_t>(p);
     parts_.grasp(p, X_WG, grip(p, [&](std::size_t h) { return answers_[h].part == number; }));
   }
 
   void leave_part(std::size_t p) {
-    pushes_[p].clear();
+    loose_parts_.end_push(p, parts_);
     parts_.release(p);
   }
 
@@ -179,16 +188,6 @@ class GraspSimulation::Life {
     }
     if (count == 0) return std::nullopt;
     return geometry::displaced(X_WV, p_Vref, sum.scaled(1.0 / count));
-  }
-
-  /// Where a loose part goes that hands push.
-  Eigen::Isometry3d yielding(std::size_t p) {
-    const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
-    if (pushes_[p].is_empty()) return X_WV;
-    const haptics::SlidingPart& part = parts_.part(p);
-    const bool repeats_motion = metaphors_[p] == haptics::Metaphor::kIncremental;
-    const Eigen::Isometry3d& X_WG_from = repeats_motion ? parts_.result(p).X_WG : X_WV;
-    return geometry::displaced(X_WG_from, parts_.p_Vref(p), pushes_[p].displacement(part.radius()));
   }
 
   void carry_hand(std::size_t h) {
@@ -263,15 +262,9 @@ class GraspSimulation::Life {
       leave_part(p);
     } else {
       X_WG_[p] = wish(p).value_or(parts_.result(p).X_WV);
-      end_push(p);
+      loose_parts_.end_push(p, parts_);
       parts_.grasp(p, X_WG_[p], grip(p, [&](std::size_t h) { return hands_[h].part() == p; }));
     }
-  }
-
-  /// A part that a hand pushes is held by nobody.
-  void end_push(std::size_t p) {
-    if (!pushes_[p].is_empty()) parts_.release(p);
-    pushes_[p].clear();
   }
 
   /// The compliance point of a part that hands take: the middle of where those that hold it touch it, unless the scene
@@ -294,36 +287,12 @@ class GraspSimulation::Life {
     return parts_.result(p).X_WV.inverse(Eigen::Isometry) * (sum_W / count);
   }
 
-  void note_pushes() {
-    for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      note_push(p);
-  }
-
-  /// A part that is pushed follows the push, and is released when no hand pushes it any more. A hand that is about to
-  /// take hold of it pushes it no farther, one that has just let go of it leaves it where it is, and so does one that
-  /// has been lost and now comes late.
-  void note_push(std::size_t p) {
-    if (parts_.is_scripted(p) || is_held(p)) return;
-    Push& push = pushes_[p];
-    const bool was_pushed = !push.is_empty();
-    push.clear();
-    const auto body = static_cast<std::int32_t>(parts_.obstacle_count() + p);
-    const Eigen::Isometry3d& X_WV = parts_.result(p).X_WV;
-    for (const GraspingHand& hand : hands_) {
-      if (!hand.is_lost() && !hand.is_late() && !hand.closes_round(body) && !hand.has_just_left(p))
-        push.add(hand.clasp().contacts(), body, X_WV, parts_.part(p));
-    }
-    if (push.is_empty() && was_pushed) parts_.release(p);
-    if (!push.is_empty() && !was_pushed) parts_.grasp(p, X_WV);
-  }
-
   Eigen::Vector3d up_W_;
   std::vector<GraspingHand> hands_;
   haptics::MultiPartSliding parts_;
-  std::vector<Eigen::Isometry3d> X_WG_;       // of each part
-  std::vector<haptics::Metaphor> metaphors_;  // of each part
-  std::vector<Push> pushes_;                  // of each part
-  double waited_ms_ = 0.0;                    // since the hands moved
+  std::vector<Eigen::Isometry3d> X_WG_;  // of each part
+  LooseParts loose_parts_;
+  double waited_ms_ = 0.0;  // since the hands moved
   // In the haptic loop:
   std::vector<haptics::HandAnswer> answers_;  // for each hand
   FingerRows rows_;

@@ -46,8 +46,9 @@ haptics::FingerHand finger_hand(const HandModel& hand);
 /// visible part, wherever the tracked hand goes, and segments of the hand stop the part as its own faces do. The
 /// fingers still follow the glove; when they open, the hand lets go, and takes hold of the same part again after 0.2 s
 /// at the earliest. A part in two hands follows the mean of their wishes. A hand that touches a loose part without a
-/// grasp pushes it: the part yields by the shortest way on which the target of the hand lies no deeper than 1 mm in it,
-/// as far as obstacles let it.
+/// grasp pushes it. It yields by the shortest way on which the target of the hand lies no deeper than 1 mm in it, as
+/// far as obstacles let it, and at most half again as fast as the fastest segment that pushes it (beside the gap of
+/// contacts, up to 20 µm a call).
 ///
 /// In the haptic loop (`haptics::HapticServer`), the haptic thread has the ghosts of parts in hands, and this
 /// simulation decides who takes hold. A decision takes effect once the haptic thread has followed it. Then a part is

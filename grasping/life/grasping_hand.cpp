@@ -11,7 +11,6 @@
 
 #include "clasp/chain_step.h"
 #include "hand/hand_links.h"
-#include "life/push.h"
 
 namespace glissade::grasping {
 namespace {
@@ -36,6 +35,7 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       analysis_(*model_, fixed.size()),
       now_(*model_, fixed.size()),
       held_(model_->chain.links().size()),
+      speeds_(chain_of(model_), clasp_.bodies()),
       X_WL_(model_->chain.links().size()),
       X_WL_target_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
@@ -57,9 +57,13 @@ void GraspingHand::aim(const std::optional<Posture>& target, double milliseconds
   const bool was_lost = is_lost();
   target_ = target;
   if (target_ && !is_usable(*target_, model_->chain.values().size())) target_.reset();
-  if (!target_) return;
+  if (!target_) {
+    speeds_.forget();
+    return;
+  }
   std::vector<double>& values = target_->values;
   model_->chain.clamp(values);
+  speeds_.follow(*target_, milliseconds);
   if (!part_ || was_lost) {
     fingers_.begin(values);
     return;
@@ -118,7 +122,7 @@ void GraspingHand::advance() {
   clasp_.advance(posture_);
   if (!is_late_ || !is_present()) return;
   is_late_ = std::any_of(clasp_.contacts().begin(), clasp_.contacts().end(), [&](const LinkContact& touch) {
-    return touch.contact.obstacle >= first_part_ && touch.depth > Push::kPress_m;
+    return touch.contact.obstacle >= first_part_ && touch.depth > kResistance_m;
   });
 }
 

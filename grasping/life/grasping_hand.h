@@ -18,6 +18,7 @@
 #include <glissade/haptics/sliding_rules.h>
 
 #include "life/held_contacts.h"
+#include "life/link_speeds.h"
 #include "life/steady_fingers.h"
 
 namespace glissade::grasping {
@@ -25,6 +26,9 @@ namespace glissade::grasping {
 /// The palm P and a held part are one rigid body. Not thread-safe.
 class GraspingHand {
  public:
+  /// How deep the target of a segment may lie in a loose part before the part yields.
+  static constexpr double kResistance_m = 1e-3;
+
   GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<haptics::Obstacle>& fixed,
                std::vector<std::shared_ptr<const haptics::SlidingPart>> parts, const ClaspRules& rules);
 
@@ -46,6 +50,9 @@ class GraspingHand {
   void vanish();
   /// Whether the hand has been found again and still presses on a part: what has been missed is no push.
   bool is_late() const { return is_late_; }
+
+  /// Metres a millisecond: the speed of a link of the tracked hand.
+  double speed_of(std::size_t link) const { return speeds_.of(link); }
 
   /// Takes hold of the part at X_WV; only a hand that is present can.
   void take(std::size_t part, const Eigen::Isometry3d& X_WV);
@@ -79,6 +86,7 @@ class GraspingHand {
   GraspAnalysis now_;  // of this moment alone
   SteadyFingers fingers_;
   HeldContacts held_;
+  LinkSpeeds speeds_;
   std::optional<Posture> target_;
   bool is_late_ = false;
   std::optional<std::size_t> part_;

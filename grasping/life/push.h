@@ -2,42 +2,48 @@
 
 /// How a loose part yields to hands that push it.
 
-#include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <Eigen/Geometry>
 
 #include <glissade/geometry/displacement.h>
-#include <glissade/grasping/clasp.h>
 #include <glissade/haptics/contact_body.h>
 
 #include "clasp/slide_past.h"
+#include "life/grasping_hand.h"
 
 namespace glissade::grasping {
 
-/// Contacts of all hands with one part. A loose part resists a little, as if it lay on something with friction: the
-/// targets of segments stay kPress_m within it. So a segment that pushes goes on touching, and the others have time to
-/// come to the part as well: an object lies on several fingers, or is held between two. Not thread-safe.
+/// Contacts of all hands with one loose part. The part resists a little, as if it lay on something with friction: the
+/// targets of segments stay `GraspingHand::kResistance_m` within it. So a segment that pushes goes on touching, and the
+/// others have time to come to the part as well: an object lies on several fingers, or is held between two. Not
+/// thread-safe.
 class Push {
  public:
-  static constexpr double kPress_m = 1e-3;
+  /// In speeds of the fastest segment that pushes: a part that comes free goes no faster, however deep the target lies.
+  /// What the hand would need to go on waits.
+  static constexpr double kFastest = 1.5;
+  /// Metres a millisecond: hands as slow as this stand still.
+  static constexpr double kStill_m_per_ms = 1e-6;
 
-  void clear() { planes_.clear(); }
+  void clear();
   /// Adds the contacts of a hand with the part, whose number as a body is `body`, at X_WV.
-  void add(const std::vector<LinkContact>& contacts, std::int32_t body, const Eigen::Isometry3d& X_WV,
+  void add(const GraspingHand& hand, std::int32_t body, const Eigen::Isometry3d& X_WV,
            const haptics::SlidingPart& part);
-  bool is_empty() const { return planes_.empty(); }
+  void add(const LinkContact& touch, double link_m_per_ms, const Eigen::Vector3d& p_Wref);
 
-  /// The shortest displacement of the part on which the targets of all hands lie no deeper than kPress_m, to first
-  /// order; where there is none, because they press from all sides, a balance. No point of the part, which has this
-  /// radius about its reference point, moves farther than the deepest target lies.
-  geometry::Displacement displacement(double radius);
+  /// The shortest displacement of the part in so many milliseconds on which the targets of all hands lie no deeper than
+  /// the part resists, to first order; where there is none, because they press from all sides, a balance. No point of
+  /// the part, which has this radius about its reference point, moves farther than the deepest target lies, nor
+  /// kFastest times as fast as the fastest segment.
+  geometry::Displacement displacement(double radius, double milliseconds);
 
  private:
   static constexpr double kCompliance = 0.1;
 
   std::vector<ContactPlane> planes_;
+  double fastest_m_per_ms_ = 0.0;
   std::vector<double> forces_;
 };
 

@@ -6,6 +6,9 @@
 #include <cstddef>
 #include <numbers>
 #include <span>
+#include <utility>
+
+#include <Eigen/Geometry>
 
 namespace glissade::haptics {
 namespace {
@@ -99,6 +102,69 @@ std::vector<std::int8_t> oriented(const geometry::TriangleMesh& mesh,
   return signs;
 }
 
+/// A connected part of a surface whose triangles have one orientation.
+struct Shell {
+  std::vector<std::size_t> triangles;
+  Eigen::AlignedBox3d bounds;
+  double enclosed = 0.0;  ///< six times the volume; negative where the normals point inwards
+};
+
+std::vector<Shell> shells_of(const geometry::TriangleMesh& mesh, std::span<const Side> sides) {
+  std::vector<std::vector<std::size_t>> neighbors(mesh.triangles.size());
+  visit_edges(sides, [&](std::span<const Side> edge) {
+    const auto first = static_cast<std::size_t>(edge[0].triangle);
+    for (const Side& side : edge.subspan(1)) {
+      neighbors[first].push_back(static_cast<std::size_t>(side.triangle));
+      neighbors[static_cast<std::size_t>(side.triangle)].push_back(first);
+    }
+  });
+  std::vector<char> is_known(mesh.triangles.size(), 0);
+  std::vector<Shell> shells;
+  for (std::size_t first = 0; first < mesh.triangles.size(); ++first) {
+    if (is_known[first]) continue;
+    is_known[first] = 1;
+    Shell& shell = shells.emplace_back();
+    shell.triangles.push_back(first);
+    for (std::size_t i = 0; i < shell.triangles.size(); ++i) {
+      const std::size_t t = shell.triangles[i];
+      for (const Eigen::Vector3d& corner : mesh.corners(static_cast<std::int32_t>(t)))
+        shell.bounds.extend(corner);
+      shell.enclosed += volume(mesh, t, mesh.corner(static_cast<std::int32_t>(first), 0));
+      for (const std::size_t neighbor : neighbors[t]) {
+        if (!std::exchange(is_known[neighbor], 1)) shell.triangles.push_back(neighbor);
+      }
+    }
+  }
+  return shells;
+}
+
+/// Whether p is inside of a shell, whatever its orientation.
+bool is_inside(const geometry::TriangleMesh& mesh, const Shell& shell, const Eigen::Vector3d& p) {
+  if (!shell.bounds.contains(p)) return false;
+  double sum = 0.0;
+  for (const std::size_t t : shell.triangles)
+    sum += solid_angle(mesh.corners(static_cast<std::int32_t>(t)), p);
+  return std::abs(sum) > 2.0 * std::numbers::pi;  // rounding is far from a half of the full angle
+}
+
+/// Shells inside of no other enclose what is inside of them. Those inside of such a one keep their orientation relative
+/// to it: they are cavities, or solids.
+std::vector<std::int8_t> signs_of(const geometry::TriangleMesh& mesh, const std::vector<Shell>& shells) {
+  std::vector<std::int8_t> signs(mesh.triangles.size(), 1);
+  for (const Shell& shell : shells) {
+    const Shell* outermost = &shell;
+    for (const Shell& other : shells) {
+      const bool is_larger = std::abs(other.enclosed) > std::abs(outermost->enclosed);
+      const Eigen::Vector3d& p = mesh.corner(static_cast<std::int32_t>(shell.triangles.front()), 0);
+      if (is_larger && is_inside(mesh, other, p)) outermost = &other;
+    }
+    if (outermost->enclosed >= 0.0) continue;
+    for (const std::size_t t : shell.triangles)
+      signs[t] = -1;
+  }
+  return signs;
+}
+
 }  // namespace
 
 std::vector<std::int8_t> outward_signs(const geometry::TriangleMesh& mesh) {
@@ -110,12 +176,7 @@ std::vector<std::int8_t> outward_signs(const geometry::TriangleMesh& mesh) {
     has_one_orientation = has_one_orientation && 2 * forward == std::ssize(edge);
     is_closed = is_closed && edge.size() == 2;
   });
-  if (has_one_orientation) {
-    double enclosed = 0.0;
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
-      enclosed += volume(mesh, t, mesh.corner(0, 0));
-    return std::vector<std::int8_t>(mesh.triangles.size(), enclosed < 0.0 ? std::int8_t{-1} : std::int8_t{1});
-  }
+  if (has_one_orientation) return signs_of(mesh, shells_of(mesh, sides));
   if (!is_closed) return {};
   std::vector<std::vector<Neighbor>> neighbors(mesh.triangles.size());
   visit_edges(sides, [&](std::span<const Side> edge) {

@@ -36,10 +36,17 @@ class HandAndBall {
                    {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_),
                      .X_WV_start = test_support::at(0.095, 0.0, -0.056),
                      .metaphor = metaphor}},
-                   std::vector<std::shared_ptr<const HandModel>>(hands, test_support::hand_model())),
+                   std::vector<std::shared_ptr<const HandModel>>(hands, test_support::hand_model()), rules()),
         targets_(hands) {}
 
  private:
+  /// Of a call with two steps at most, the way of a part is known.
+  static GraspRules rules() {
+    GraspRules rules;
+    rules.sliding.max_cycles = 2;
+    return rules;
+  }
+
   std::shared_ptr<const geometry::TriangleMesh> ball_;
   std::shared_ptr<const geometry::TriangleMesh> wall_;
   Eigen::Isometry3d X_WWall_;
@@ -115,15 +122,11 @@ class HandAndBall {
   /// The same on the ways of the last call. First the ball moves, with the hands that hold it, among the hands that do
   /// not; then the hands move.
   bool has_collided_since(const State& before) const {
-    const geometry::Displacement d = geometry::displacement_between(before.X_WV, X_WV(), before.p_Vref);
-    for (int place = 1; place <= kPlaces; ++place) {
-      const Eigen::Isometry3d X_WB =
-          geometry::displaced(before.X_WV, before.p_Vref, d.scaled(static_cast<double>(place) / kPlaces));
-      if (wall_check_.collides(*ball_, X_WB)) return true;
-      for (std::size_t h = 0; h < before.hands.size(); ++h) {
-        if (!before.hands[h].values.empty() && hand_collides(carried(h, before, X_WB), X_WB)) return true;
-      }
-    }
+    const haptics::SlidingResult& ball = simulation.parts().result(0);
+    const bool has_moved = !ball.X_WV.isApprox(before.X_WV, 0.0);
+    if (has_moved && (ball_has_collided(before, before.X_WV, ball.X_WV_before_step) ||
+                      ball_has_collided(before, ball.X_WV_before_step, ball.X_WV)))
+      return true;
     for (std::size_t h = 0; h < before.hands.size(); ++h) {
       if (!targets_[h] || before.hands[h].values.empty()) continue;
       Posture from = carried(h, before, X_WV());
@@ -132,6 +135,20 @@ class HandAndBall {
           if (hand_collides(test_support::between(from, to, static_cast<double>(place) / kPlaces), X_WV())) return true;
         }
         from = to;
+      }
+    }
+    return false;
+  }
+
+  bool ball_has_collided(const State& before, const Eigen::Isometry3d& X_WV_from,
+                         const Eigen::Isometry3d& X_WV_to) const {
+    const geometry::Displacement d = geometry::displacement_between(X_WV_from, X_WV_to, before.p_Vref);
+    for (int place = 1; place <= kPlaces; ++place) {
+      const Eigen::Isometry3d X_WB =
+          geometry::displaced(X_WV_from, before.p_Vref, d.scaled(static_cast<double>(place) / kPlaces));
+      if (wall_check_.collides(*ball_, X_WB)) return true;
+      for (std::size_t h = 0; h < before.hands.size(); ++h) {
+        if (!before.hands[h].values.empty() && hand_collides(carried(h, before, X_WB), X_WB)) return true;
       }
     }
     return false;
