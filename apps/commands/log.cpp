@@ -35,11 +35,13 @@ constexpr const char* kTablesFooter =
 
 constexpr const char* kMcapFooter =
     "FILE can be opened with Foxglove and PlotJuggler. Its topics are\n"
-    "  /tf      poses of visible parts (part_0, ...), ghosts (ghost_0, ...) and hands (hand_0, ...) in the world\n"
-    "  /scene   the meshes of the scene, with at most about 100,000 triangles\n"
-    "  /part_0  state, contacts, position and lag of each part\n"
-    "  /hand_0  force, torque, energy of each hand, and why its force is reduced\n"
-    "  /loop    when each tick of the haptic loop started, and how long it took\n"
+    "  /tf        poses of visible parts (part_0, ...), ghosts (ghost_0, ...), hands (hand_0, ...) and their segments\n"
+    "             (hand_0_palm, ...) in the world\n"
+    "  /scene     the meshes of the scene, with at most about 100,000 triangles, their names, ghosts, and hands\n"
+    "  /contacts  contacts that push, and the force on each hand, 10 mm for each newton; at most 60 a second\n"
+    "  /part_0    state, contacts, position and lag of each part\n"
+    "  /hand_0    force, torque, energy of each hand, and why its force is reduced\n"
+    "  /loop      when each tick of the haptic loop started, and how long it took\n"
     "A log without the beginning of a run, such as one of lcm-logger, has no /scene. All\n"
     "values: docs/file_formats.md in the sources. If the log is damaged, the file holds everything before the damage,\n"
     "and the exit code is 1.\n"

@@ -4,13 +4,16 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <glissade/apps/durations.h>
 #include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/log_mcap.h>
+#include <glissade/apps/record/mcap_entities.h>
 #include <glissade/apps/record/mcap_schemas.h>
+#include <glissade/apps/record/mcap_values.h>
 #include <glissade/apps/record/mcap_writer.h>
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
@@ -19,7 +22,7 @@
 #include <glissade/devices/event_log.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/haptics/recording.h>
-#include <glissade/viewer/scene_model.h>
+#include <glissade/viewer/view_scene.h>
 
 namespace glissade::apps {
 
@@ -27,81 +30,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr const char* kWorld = "world";
 constexpr std::size_t kMostLoggedTriangles = 100'000;
-
-std::string numbered(const std::string& name, std::size_t number) {
-  return name + "_" + std::to_string(number);
-}
-
-Json json_of(const Eigen::Vector3d& v) {
-  return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
-}
-
-/// The orientation of a frame, with w ≥ 0.
-Json orientation_of(const Eigen::Isometry3d& X) {
-  Eigen::Quaterniond q(X.linear());
-  if (q.w() < 0.0) q.coeffs() = -q.coeffs();
-  return {{"x", q.x()}, {"y", q.y()}, {"z", q.z()}, {"w", q.w()}};
-}
-
-Json stamp_of(std::chrono::nanoseconds time) {
-  constexpr std::int64_t kBillion = 1'000'000'000;
-  return {{"sec", time.count() / kBillion}, {"nsec", time.count() % kBillion}};
-}
-
-Json transform(std::chrono::nanoseconds time, const std::string& child, const Eigen::Isometry3d& X) {
-  return {{"timestamp", stamp_of(time)},
-          {"parent_frame_id", kWorld},
-          {"child_frame_id", child},
-          {"translation", json_of(X.translation())},
-          {"rotation", orientation_of(X)}};
-}
-
-Json triangles_of(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X, const Json& color) {
-  Json points = Json::array();
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    points.push_back(json_of(vertex));
-  Json indices = Json::array();
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::int32_t vertex : triangle)
-      indices.push_back(vertex);
-  }
-  return {{"pose", {{"position", json_of(X.translation())}, {"orientation", orientation_of(X)}}},
-          {"points", std::move(points)},
-          {"color", color},
-          {"colors", Json::array()},
-          {"indices", std::move(indices)}};
-}
-
-/// A fixed object stands in the world, any other one in the frame of its part.
-Json entity_of(const viewer::ViewObject& object, const geometry::TriangleMesh& mesh, std::chrono::nanoseconds time) {
-  const char* const kind = !object.part ? "fixed" : object.moves_on_its_own ? "moving" : "part";
-  const Json color = !object.part              ? Json{{"r", 0.74}, {"g", 0.77}, {"b", 0.79}, {"a", 1.0}}
-                     : object.moves_on_its_own ? Json{{"r", 0.76}, {"g", 0.58}, {"b", 0.27}, {"a", 1.0}}
-                                               : Json{{"r", 0.31}, {"g", 0.56}, {"b", 0.81}, {"a", 1.0}};
-  const Eigen::Isometry3d X = object.part ? Eigen::Isometry3d::Identity() : object.X_WB;
-  Json entity{{"timestamp", stamp_of(time)},
-              {"frame_id", object.part ? numbered("part", *object.part) : kWorld},
-              {"id", object.name},
-              {"lifetime", stamp_of({})},
-              {"frame_locked", true},
-              {"metadata", Json::array({{{"key", "kind"}, {"value", kind}}})},
-              {"triangles", Json::array({triangles_of(mesh, X, color)})}};
-  for (const char* unused : {"arrows", "cubes", "spheres", "cylinders", "lines", "texts", "models"})
-    entity[unused] = Json::array();
-  return entity;
-}
-
-Json scene_update(const viewer::ViewScene& scene, std::chrono::nanoseconds time) {
-  const auto meshes = viewer::simplified_meshes(scene, kMostLoggedTriangles);
-  Json entities = Json::array();
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    entities.push_back(entity_of(scene.objects[i], *meshes[i], time));
-  constexpr int kAll = 1;  // objects of the run before
-  const Json deletion{{"timestamp", stamp_of(time)}, {"type", kAll}, {"id", ""}};
-  return {{"deletions", Json::array({deletion})}, {"entities", std::move(entities)}};
-}
+constexpr std::chrono::nanoseconds kContactsPeriod(16'666'667);  // no more than screens show
 
 Json loop_message(const haptics::TickRecord& tick) {
   return {{"tick", tick.number},
@@ -117,8 +47,8 @@ Json part_message(const devices::HapticState& state, const devices::HapticPartSt
   return {{"tick", state.sequence},
           {"state", devices::name_of(part.state)},
           {"contacts", part.contact_count},
-          {"position_m", json_of(part.X_WV.translation())},
-          {"ghost_position_m", json_of(part.X_WG.translation())},
+          {"position_m", vector_json(part.X_WV.translation())},
+          {"ghost_position_m", vector_json(part.X_WG.translation())},
           {"lag_m", X_VG.translation().norm()},
           {"lag_rad", Eigen::AngleAxisd(X_VG.linear()).angle()},
           {"age_s", in_seconds(state.contact_set_age)}};
@@ -135,8 +65,8 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
   const devices::HapticHandState& hand = state.hands[number];
   Json message{{"tick", state.sequence},
                {"part", hand.part},
-               {"force_N", json_of(hand.force_W)},
-               {"torque_Nm", json_of(hand.torque_V_W)},
+               {"force_N", vector_json(hand.force_W)},
+               {"torque_Nm", vector_json(hand.torque_V_W)},
                {"contact_share", hand.contact_share},
                {"state_age_s", in_seconds(hand.state_age)},
                {"command_age_s", in_seconds(hand.command_age)},
@@ -151,6 +81,17 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
   return message;
 }
 
+/// Adds the poses of the segments of a hand that is present.
+void add_segments(const devices::VisibleHand& visible, const grasping::KinematicChain& chain, std::size_t hand,
+                  std::chrono::nanoseconds time, Json& transforms) {
+  const std::span<const grasping::ChainLink> links = chain.links();
+  std::vector<Eigen::Isometry3d> X_WL(links.size());
+  chain.poses(visible.X_WH, visible.angles, X_WL);
+  for (std::size_t l = 0; l < links.size(); ++l) {
+    if (links[l].mesh) transforms.push_back(transform_json(time, segment_frame(hand, links[l].name), X_WL[l]));
+  }
+}
+
 /// A file that begins with the first message.
 class McapLog {
  public:
@@ -159,6 +100,7 @@ class McapLog {
   /// What follows is of a run in this scene. Its clock may have begun anew.
   void begin_run(viewer::ViewScene scene) {
     scene_ = std::move(scene);
+    hands_ = scene_->hands;
     X_WH_.fill(std::nullopt);
     if (newest_) earliest_ = *newest_ + std::chrono::seconds(1);
   }
@@ -209,29 +151,41 @@ class McapLog {
   void add(const devices::HapticState& state) {
     if (scene_) {
       say_if_simplified(*scene_, kMostLoggedTriangles, path_);
-      write("/scene", &scene_update_schema, state.time, scene_update(*scene_, state.time));
+      write("/scene", &scene_update_schema, state.time, scene_update(*scene_, kMostLoggedTriangles, state.time));
       scene_.reset();
     }
     Json transforms = Json::array();
     for (std::size_t p = 0; p < static_cast<std::size_t>(state.part_count); ++p) {
-      transforms.push_back(transform(state.time, numbered("part", p), state.parts[p].X_WV));
-      transforms.push_back(transform(state.time, numbered("ghost", p), state.parts[p].X_WG));
+      transforms.push_back(transform_json(state.time, numbered("part", p), state.parts[p].X_WV));
+      transforms.push_back(transform_json(state.time, numbered("ghost", p), state.parts[p].X_WG));
       write(numbered("/part", p), &part_schema, state.time, part_message(state, state.parts[p]));
     }
     for (std::size_t h = 0; h < static_cast<std::size_t>(state.hand_count); ++h) {
       const devices::VisibleHand& visible = state.hands[h].visible;
       if (visible.activity != devices::HandActivity::kNone) X_WH_[h] = visible.X_WH;
-      if (X_WH_[h]) transforms.push_back(transform(state.time, numbered("hand", h), *X_WH_[h]));
+      if (X_WH_[h]) transforms.push_back(transform_json(state.time, numbered("hand", h), *X_WH_[h]));
+      if (h < hands_.size() && hands_[h].model && devices::is_present(visible.activity))
+        add_segments(visible, hands_[h].model->chain, h, state.time, transforms);
       write(numbered("/hand", h), &hand_schema, state.time, hand_message(state, h));
     }
     write("/tf", &frame_transforms_schema, state.time, {{"transforms", std::move(transforms)}});
+    add_contacts(state);
+  }
+
+  void add_contacts(const devices::HapticState& state) {
+    // The clock of a run whose beginning is not in the log may have begun anew.
+    if (contacts_time_ && std::chrono::abs(state.time - *contacts_time_) < kContactsPeriod) return;
+    contacts_time_ = state.time;
+    write("/contacts", &scene_update_schema, state.time, contacts_update(state, X_WH_));
   }
 
   std::string path_;
-  std::optional<viewer::ViewScene> scene_;            // until it is written
-  std::optional<std::chrono::nanoseconds> newest_;    // time of a message
-  std::optional<std::chrono::nanoseconds> earliest_;  // of the run's first message, until it is there
-  std::chrono::nanoseconds shift_{0};                 // from the clock of the run to that of the file
+  std::optional<viewer::ViewScene> scene_;                 // until it is written
+  std::vector<viewer::ViewHand> hands_;                    // of the run
+  std::optional<std::chrono::nanoseconds> contacts_time_;  // of the last /contacts
+  std::optional<std::chrono::nanoseconds> newest_;         // time of a message
+  std::optional<std::chrono::nanoseconds> earliest_;       // of the run's first message, until it is there
+  std::chrono::nanoseconds shift_{0};                      // from the clock of the run to that of the file
   std::optional<McapWriter> writer_;
   std::map<std::string, std::uint16_t> channels_;
   std::array<std::optional<Eigen::Isometry3d>, devices::kHapticHands> X_WH_{};  // of a hand without fingers: its glove

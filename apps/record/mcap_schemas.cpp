@@ -60,13 +60,45 @@ Json orientation() {
   return numbers("foxglove.Quaternion", "xyzw", "of a unit quaternion");
 }
 
+Json pose() {
+  return object("foxglove.Pose", {{"position", position()}, {"orientation", orientation()}});
+}
+
+Json color() {
+  return numbers("foxglove.Color", "rgba", "0 to 1");
+}
+
 Json triangles() {
-  Json properties{{"pose", object("foxglove.Pose", {{"position", position()}, {"orientation", orientation()}})},
-                  {"points", list(numbers("foxglove.Point3", "xyz", "m"))},
-                  {"color", numbers("foxglove.Color", "rgba", "0 to 1")},
-                  {"colors", list(numbers("foxglove.Color", "rgba", "0 to 1"))},
-                  {"indices", list(integer("number of a point; three make a triangle"))}};
-  return object("foxglove.TriangleListPrimitive", std::move(properties));
+  return object("foxglove.TriangleListPrimitive",
+                {{"pose", pose()},
+                 {"points", list(numbers("foxglove.Point3", "xyz", "m"))},
+                 {"color", color()},
+                 {"colors", list(color())},
+                 {"indices", list(integer("number of a point; three make a triangle"))}});
+}
+
+Json arrows() {
+  return object(
+      "foxglove.ArrowPrimitive",
+      {{"pose", pose()},
+       {"shaft_length", number("m, along the x axis of the pose; shaft and head of a force: 10 mm for each newton")},
+       {"shaft_diameter", number("m")},
+       {"head_length", number("m")},
+       {"head_diameter", number("m")},
+       {"color", color()}});
+}
+
+Json spheres() {
+  return object("foxglove.SpherePrimitive", {{"pose", pose()}, {"size", position()}, {"color", color()}});
+}
+
+Json texts() {
+  return object("foxglove.TextPrimitive", {{"pose", pose()},
+                                           {"billboard", truth("the text faces who looks at it")},
+                                           {"font_size", number("pixels, because the size does not depend on the eye")},
+                                           {"scale_invariant", truth("the size does not depend on the eye")},
+                                           {"color", color()},
+                                           {"text", words("name of the object")}});
 }
 
 Json joints(const std::string& ending, const std::string& description) {
@@ -91,16 +123,19 @@ Json frame_transforms_schema() {
 Json scene_update_schema() {
   Json entity{{"timestamp", time("time")},
               {"frame_id", words("frame in which the entity stands")},
-              {"id", words("name of the object")},
+              {"id", words("name of the entity, in the place of the last one of this name")},
               {"lifetime", time("duration")},
               {"frame_locked", truth("the entity follows its frame")},
               {"metadata", list(object("foxglove.KeyValuePair", {{"key", words("key")}, {"value", words("value")}}))},
-              {"triangles", list(triangles())}};
-  for (const char* unused : {"arrows", "cubes", "spheres", "cylinders", "lines", "texts", "models"})
+              {"triangles", list(triangles())},
+              {"arrows", list(arrows())},
+              {"spheres", list(spheres())},
+              {"texts", list(texts())}};
+  for (const char* unused : {"cubes", "cylinders", "lines", "models"})
     entity[unused] = list(object(unused, Json::object()));
   Json deletion{{"timestamp", time("time")},
                 {"type", integer("0: the entity with this name; 1: all")},
-                {"id", words("name of the object")}};
+                {"id", words("name of the entity")}};
   return object("foxglove.SceneUpdate",
                 {{"deletions", list(object("foxglove.SceneEntityDeletion", std::move(deletion)))},
                  {"entities", list(object("foxglove.SceneEntity", std::move(entity)))}});

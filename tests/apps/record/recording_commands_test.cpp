@@ -226,8 +226,9 @@ TEST_F(RecordingCommands, McapHasEveryTickAndTheScene) {
   const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", log_, mcap});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_EQ(result.standard_output,
-            "/hand_0: 500 messages\n/loop: 500 messages\n/part_0: 500 messages\n/scene: 1 message\n"
-            "/tf: 500 messages\n");
+            "/contacts: 30 messages\n/hand_0: 500 messages\n/loop: 500 messages\n/part_0: 500 messages\n"
+            "/scene: 1 message\n/tf: 500 messages\n")
+      << "/contacts has at most 60 a second: one in 17 ticks";
   EXPECT_EQ(result.standard_error, "");
   expect_refused({"log", "to-mcap", log_, log_}, {"run.lcmlog", "is an input, which would be overwritten"});
   expect_refused({"log", "to-mcap", log_, folder_.path("no/run.mcap")}, {"no/run.mcap", "cannot be created"});
