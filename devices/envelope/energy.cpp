@@ -21,12 +21,12 @@ constexpr double kScaleFall_s = 0.03;
 constexpr double kScaleRise_s = 0.3;
 constexpr double kReserve_J = 0.005;  // not given away, because the rates come after this limit
 constexpr double kFall_J = 0.05;      // of a spring that falls from the largest force to zero
-constexpr double kRecovery_W = 0.1;
+constexpr double kRecovery_W = 0.3;
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
 constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr double kStir_s = 0.5;
 constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is not calm
-constexpr double kCalmRefill_W = 0.2;
+constexpr double kCalmRefill_W = 0.5;
 constexpr double kForgotten_s = 1.0;
 
 /// The norm by the largest one; 0 where there is none.
@@ -79,7 +79,8 @@ void SafetyEnvelope::take_supply(const GloveCommand& wanted, bool is_fading, dou
 
   supply_ += change;
   owed_ -= change;
-  if (owed_ < 0.0) book(-std::exchange(owed_, 0.0));
+  // What comes from others is no stroke of the hand, and its contact stays calm.
+  if (owed_ < 0.0) energy_ = std::min(energy_ - std::exchange(owed_, 0.0), most_energy());
   const double taken = std::clamp(energy_ - kStartEnergy_J, 0.0, owed_);
   energy_ -= taken;
   taken_ += taken;

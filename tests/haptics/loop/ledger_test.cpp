@@ -25,7 +25,7 @@ TEST(Ledger, HandsTogetherGetNoMoreThanTheyPutInAndARestingHandFeelsOneForce) {
       closest = std::max(closest, world.got() / world.allowance());
       for (std::size_t h = 0; h < world.hands(); ++h) {
         const LedgerWorld::Felt& felt = world.felt(h);
-        if (world.ms() < LedgerWorld::kPressing + 2300) continue;
+        if (world.ms() < std::max(felt.rests_since, LedgerWorld::kPressing + 300) + 2000) continue;
         EXPECT_GE(felt.share, 0.9) << "hand " << h << ", " << world.ms() << " ms";
         EXPECT_LE(felt.change, 0.01 * std::max(felt.force, 1.0)) << "hand " << h << ", " << world.ms() << " ms";
         ASSERT_FALSE(felt.turns) << "hand " << h << ", " << world.ms() << " ms";

@@ -50,6 +50,7 @@ class LedgerWorld {
     double change = 0.0;  ///< of the force
     double share = 1.0;   ///< of what contacts and other hands demand within the limits of the device
     bool turns = false;   ///< the force steps up and down
+    int rests_since = 0;  ///< ms: when the hand was last faster than 30 mm/s
   };
 
   void step() {
@@ -67,11 +68,11 @@ class LedgerWorld {
 
   /// Work (J) of forces and torques on all hands, less what the floor can have given by rising.
   double got() const { return got_ - of_mover_; }
-  /// docs/safety.md: for each glove 0.1 J, 1 J and 0.1 W; and for each hand of a server that was left alone for a
+  /// docs/safety.md: for each glove 0.1 J, 1 J and 0.3 W; and for each hand of a server that was left alone for a
   /// while, 1 J and 0.1 W.
   double allowance() const {
     const double seconds = 1e-3 * ms_;
-    return static_cast<double>(hands_.size()) * (1.1 + 0.1 * seconds + (halts_ > 0 ? servers_ + 0.1 * seconds : 0.0));
+    return static_cast<double>(hands_.size()) * (1.1 + 0.3 * seconds + (halts_ > 0 ? servers_ + 0.1 * seconds : 0.0));
   }
 
  private:
@@ -269,13 +270,15 @@ class LedgerWorld {
     const Eigen::Vector3d wanted = hand.tick.contacts.f + hand.tick.pull.f;
     const double norm = wanted.norm();
     const devices::DeviceDescriptor& limits = hand.envelope.descriptor();
-    const double most = std::min(norm, limits.max_mean_force > 0.0 ? 0.9 * limits.max_mean_force : limits.max_force);
+    const double mean = limits.max_mean_force > 0.0 ? 0.9 * limits.max_mean_force : limits.max_force;
+    const double most = std::min({norm, mean, limits.max_force});
     const double force = given.f_H_W.norm();
     const double step = force - hand.felt.force;
     hand.felt.turns = step * hand.step < -0.5;
     hand.step = step;
     hand.felt.change = std::abs(step);
     hand.felt.force = force;
+    if (hand.glove.state().v_WH.norm() > 0.03) hand.felt.rests_since = ms_;
     hand.felt.share = most > 0.0 ? given.f_H_W.dot(wanted) / (norm * most) : 1.0;
     const double exerted = norm > 0.0 ? std::clamp(given.f_H_W.dot(wanted) / (norm * norm), 0.0, 1.0) : 0.0;
     of_mover_ += exerted * std::max(0.0, hand.tick.contacts.f.z() * 1e-3 * floor_speed_);
