@@ -63,8 +63,8 @@ void register_solver(const BenchOptions& options);
 void register_passivity(const BenchOptions& options);
 
 /// `ages/SCENE`: the simulation in real time with `real_time_rules`, subjects `without-budget` and `with-budget` of
-/// work (`SlidingRules::work_budget`). Quantiles `age_` of the age of the newest answer, each millisecond, and `call_` of
-/// the calls; counters `lag_mean_mm` of the visible part behind the ghost, and `ended_early_percent` of the calls.
+/// work (`SlidingRules::work_budget`). Quantiles `age_` of the age of the newest answer, each millisecond, and `call_`
+/// of the calls; counters `lag_mean_mm` of the visible part behind the ghost, and `ended_early_percent` of the calls.
 void register_ages(const BenchOptions& options);
 
 /// `led/PART` and `led/PART+PART`: the user's meshes in real time, two copies of each and each pair: the ghost wanders
