@@ -12,6 +12,9 @@ namespace glissade::devices {
 namespace {
 
 constexpr std::chrono::nanoseconds kLargestStep = std::chrono::milliseconds(1);
+// Periods of the device.
+constexpr double kCommandLasts = 3.0;
+constexpr double kCommandFades = 7.0;
 
 constexpr double kRadiansPerDegree = std::numbers::pi / 180.0;
 
@@ -130,20 +133,26 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
 }
 
 GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace) noexcept {
-  const GloveCommand& command = newest.values();
-  for (std::chrono::nanoseconds left = dt; left > std::chrono::nanoseconds::zero();) {
-    const std::chrono::nanoseconds now = std::min(left, kLargestStep);
+  for (std::chrono::nanoseconds passed{0}; passed < dt;) {
+    const std::chrono::nanoseconds now = std::min(dt - passed, kLargestStep);
     const double h = std::chrono::duration<double>(now).count();
-    move_hand(h, pace, command);
-    turn_hand(h, pace, command);
-    move_fingers(h, command);
+    const double share = share_of_command(passed);
+    move_hand(h, pace, share * newest.values().f_H_W);
+    turn_hand(h, pace, share * newest.values().t_H_W);
+    move_fingers(h, share, newest.values().joint_torques);
     state_.time += now;
     script_time_ += pace == 1.0 ? now : std::chrono::nanoseconds(std::llround(pace * static_cast<double>(now.count())));
-    left -= now;
+    passed += now;
   }
   ++state_.sequence;
   state_.grip = grip_at(script_time_);
   return state_;
+}
+
+/// What the glove still exerts of a command that has not been renewed for so long.
+double SimulatedGlove::share_of_command(std::chrono::nanoseconds age) const noexcept {
+  const double periods = std::chrono::duration<double>(age).count() * descriptor_.update_rate;
+  return std::clamp(1.0 - (periods - kCommandLasts) / kCommandFades, 0.0, 1.0);
 }
 
 std::int64_t SimulatedGlove::grip_at(std::chrono::nanoseconds time) const noexcept {
@@ -158,35 +167,35 @@ JointValues SimulatedGlove::aim_of_fingers() const noexcept {
   return is_open && parameters_.open_posture ? *parameters_.open_posture : parameters_.grasp_posture;
 }
 
-void SimulatedGlove::move_hand(double h, double pace, const GloveCommand& command) noexcept {
+void SimulatedGlove::move_hand(double h, double pace, const Eigen::Vector3d& f_H_W) noexcept {
   const Eigen::Vector3d p_WScript = script_X_WH_.pose_at(script_time_).translation();
   const Eigen::Vector3d v_WScript = pace * script_X_WH_.velocity_at(script_time_).v_WB;
-  const Eigen::Vector3d f_H_W = parameters_.wearer_stiffness * (p_WScript - state_.X_WH.translation()) +
+  const Eigen::Vector3d sum_W = parameters_.wearer_stiffness * (p_WScript - state_.X_WH.translation()) +
                                 parameters_.wearer_damping * (v_WScript - state_.v_WH) -
-                                parameters_.arm_damping * state_.v_WH + command.f_H_W;
-  state_.v_WH += h / parameters_.mass * f_H_W;
+                                parameters_.arm_damping * state_.v_WH + f_H_W;
+  state_.v_WH += h / parameters_.mass * sum_W;
   state_.X_WH.translation() += h * state_.v_WH;
 }
 
-void SimulatedGlove::turn_hand(double h, double pace, const GloveCommand& command) noexcept {
+void SimulatedGlove::turn_hand(double h, double pace, const Eigen::Vector3d& t_H_W) noexcept {
   const Eigen::Quaterniond q_WScript(script_X_WH_.pose_at(script_time_).linear());
   const Eigen::Vector3d w_WScript = pace * script_X_WH_.velocity_at(script_time_).w_WB;
   const Eigen::Vector3d to_script_W = rotation_vector(q_WScript * q_WH_.conjugate());
   // The inertia is the same about every axis, so there is no gyroscopic torque.
-  const Eigen::Vector3d t_H_W = parameters_.wearer_rotational_stiffness * to_script_W +
+  const Eigen::Vector3d sum_W = parameters_.wearer_rotational_stiffness * to_script_W +
                                 parameters_.wearer_rotational_damping * (w_WScript - state_.w_WH) -
-                                parameters_.arm_rotational_damping * state_.w_WH + command.t_H_W;
-  state_.w_WH += h / parameters_.rotational_inertia * t_H_W;
+                                parameters_.arm_rotational_damping * state_.w_WH + t_H_W;
+  state_.w_WH += h / parameters_.rotational_inertia * sum_W;
   q_WH_ = (from_rotation_vector(h * state_.w_WH) * q_WH_).normalized();
   state_.X_WH.linear() = q_WH_.toRotationMatrix();
 }
 
 // Fingers weigh little: each approaches the equilibrium of the wearer's grip and the torque without overshoot.
-void SimulatedGlove::move_fingers(double h, const GloveCommand& command) noexcept {
+void SimulatedGlove::move_fingers(double h, double share, const JointValues& torques) noexcept {
   const double part = -std::expm1(-h / parameters_.finger_time_constant);
   const JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
-    const double balance = aim[i] + command.joint_torques[i] / parameters_.finger_stiffness;
+    const double balance = aim[i] + share * torques[i] / parameters_.finger_stiffness;
     double& angle = state_.joint_angles[i];
     angle = std::clamp(angle + part * (balance - angle), descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }

@@ -82,9 +82,10 @@ class SimulatedGlove {
   /// The current state. The initial state has sequence 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
 
-  /// Advances the simulation by `dt` under the constant command `newest`. Returns the new state: its sequence is higher
-  /// by one, its time later by `dt`. For dt ≤ 0, only the sequence changes. The wearer goes on in the script at `pace`
-  /// times its speed, from 0 (the wearer stops and waits) to 1.
+  /// Advances the simulation by `dt` under the command `newest`. Returns the new state: its sequence is higher by one,
+  /// its time later by `dt`. For dt ≤ 0, only the sequence changes. The command counts for three periods of the device,
+  /// and fades within seven more: as in a device that guards itself against a driver that is late. The wearer goes on
+  /// in the script at `pace` times its speed, from 0 (the wearer stops and waits) to 1.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 
   /// The time of the script at which the wearer is.
@@ -93,9 +94,10 @@ class SimulatedGlove {
  private:
   std::int64_t grip_at(std::chrono::nanoseconds time) const noexcept;
   JointValues aim_of_fingers() const noexcept;
-  void move_hand(double h, double pace, const GloveCommand& command) noexcept;
-  void turn_hand(double h, double pace, const GloveCommand& command) noexcept;
-  void move_fingers(double h, const GloveCommand& command) noexcept;
+  double share_of_command(std::chrono::nanoseconds age) const noexcept;
+  void move_hand(double h, double pace, const Eigen::Vector3d& f_H_W) noexcept;
+  void turn_hand(double h, double pace, const Eigen::Vector3d& t_H_W) noexcept;
+  void move_fingers(double h, double share, const JointValues& torques) noexcept;
 
   geometry::PoseTrajectory script_X_WH_;
   SimulatedGloveParameters parameters_;

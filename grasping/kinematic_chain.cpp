@@ -141,6 +141,18 @@ void KinematicChain::poses(const Eigen::Isometry3d& X_WR, std::span<const double
   }
 }
 
+void KinematicChain::add_rates(std::size_t link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W,
+                               std::span<const Eigen::Isometry3d> X_WL, std::span<double> rates) const noexcept {
+  GLISSADE_ASSERT(X_WL.size() == links_.size());
+  for (std::optional<std::size_t> l = link; l; l = links_[*l].parent) {
+    if (links_[*l].terms.empty()) continue;
+    const Eigen::Vector3d axis_W = X_WL[*l].linear() * links_[*l].axis_J;
+    const double per_rad = n_W.dot(axis_W.cross(p_W - X_WL[*l].translation()));
+    for (const JointTerm& term : links_[*l].terms)
+      rates[term.value] += term.factor * per_rad;
+  }
+}
+
 bool KinematicChain::moves(std::size_t value, std::size_t link) const noexcept {
   GLISSADE_ASSERT(value < values_.size() && link < links_.size());
   return moves_[link * values_.size() + value] != 0;

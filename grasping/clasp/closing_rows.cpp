@@ -24,14 +24,10 @@ void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
   const std::size_t first = rates_.size();
   rates_.resize(first + columns_, 0.0);
   rates_[first] = contact.n_W.dot(root_.v + root_.w.cross(r_W));
-  const std::span<const ChainLink> links = chain_.links();
-  for (std::optional<std::size_t> l = link; l; l = links[*l].parent) {
-    if (links[*l].terms.empty()) continue;
-    const Eigen::Vector3d axis_W = X_WL_[*l].linear() * links[*l].axis_J;
-    const double per_rad = contact.n_W.dot(axis_W.cross(contact.p_W - X_WL_[*l].translation()));
-    for (const JointTerm& term : links[*l].terms)
-      rates_[first + 1 + term.value] += term.factor * wanted_[term.value] * per_rad;
-  }
+  const std::span<double> of_values(rates_.data() + first + 1, wanted_.size());
+  chain_.add_rates(link, contact.p_W, contact.n_W, X_WL_, of_values);
+  for (std::size_t v = 0; v < wanted_.size(); ++v)
+    of_values[v] *= wanted_[v];
 }
 
 void ClosingRows::share_shortfalls() {

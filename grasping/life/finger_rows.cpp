@@ -4,7 +4,6 @@
 #include <array>
 #include <cstddef>
 #include <numeric>
-#include <optional>
 
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/finger_forces.h>
@@ -19,14 +18,7 @@ haptics::FingerRow row_of(const KinematicChain& chain, const LinkContact& touch,
   row.n_W = touch.contact.n_W;
   row.p_W = touch.contact.p_W;
   row.gap = std::max(0.0, touch.contact.gap - touch.contact.margin);
-  const std::span<const ChainLink> links = chain.links();
-  for (std::optional<std::size_t> l = touch.link; l; l = links[*l].parent) {
-    if (links[*l].terms.empty()) continue;
-    const Eigen::Vector3d axis_W = X_WL[*l].linear() * links[*l].axis_J;
-    const double per_rad = touch.contact.n_W.dot(axis_W.cross(touch.contact.p_W - X_WL[*l].translation()));
-    for (const JointTerm& term : links[*l].terms)
-      row.rates[term.value] += term.factor * per_rad;
-  }
+  chain.add_rates(touch.link, row.p_W, row.n_W, X_WL, row.rates);
   return row;
 }
 

@@ -34,10 +34,9 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       clasp_(chain_of(model_), fixed, std::move(parts), rules),
       analysis_(*model_, fixed.size()),
       now_(*model_, fixed.size()),
-      held_(model_->chain.links().size()),
+      held_(chain_of(model_), kPalmLink),
       speeds_(chain_of(model_), clasp_.bodies()),
       X_WL_(model_->chain.links().size()),
-      X_WL_target_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
 
 std::span<const Eigen::Isometry3d> GraspingHand::segments() {
@@ -143,10 +142,7 @@ void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, con
     return;
   }
   const std::int32_t body = first_part_ + static_cast<std::int32_t>(*part_);
-  const Posture& posture = clasp_.posture();
-  model_->chain.poses(posture.X_WR, posture.values, X_WL_);
-  model_->chain.poses(posture_.X_WR, posture_.values, X_WL_target_);
-  held_.update(clasp_.contacts(), body, X_WV, X_WL_, X_WL_target_);
+  held_.update(clasp_.contacts(), body, X_WV, clasp_.posture(), posture_);
   for (const std::size_t link : held_.left())
     analysis_.forget(link, body);
   analysis_.update(held_.contacts(), milliseconds, up_W, body);

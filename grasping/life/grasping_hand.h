@@ -95,7 +95,6 @@ class GraspingHand {
   Eigen::Isometry3d X_PV_ = Eigen::Isometry3d::Identity();
   Posture posture_;  // scratch memory
   std::vector<Eigen::Isometry3d> X_WL_;
-  std::vector<Eigen::Isometry3d> X_WL_target_;
   std::vector<Eigen::Isometry3d> X_WB_;
 };
 

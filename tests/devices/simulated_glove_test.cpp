@@ -207,13 +207,30 @@ TEST(SimulatedGlove, IsDeterministicAndDividesLongSteps) {
   command.t_H_W = Vector3d(0.1, 0, 0.2);
   const SafeCommand safe = test_support::safe_command(command, one.descriptor());
   for (int i = 0; i < 100; ++i) {
-    for (int j = 0; j < 5; ++j)
+    for (int j = 0; j < 3; ++j)
       one.step(kTick, safe);
-    two.step(5 * kTick, safe);
+    two.step(3 * kTick, safe);
     ASSERT_EQ(one.state().X_WH.matrix(), two.state().X_WH.matrix());
     ASSERT_EQ(one.state().v_WH, two.state().v_WH);
     ASSERT_EQ(one.state().time, two.state().time);
   }
+}
+
+TEST(SimulatedGlove, DoesNotGoOnForLongUnderACommandThatIsLate) {
+  GloveCommand command;
+  command.f_H_W = Vector3d(10, 0, 0);
+  command.joint_torques.fill(-0.3);
+  SimulatedGloveParameters parameters;
+  parameters.grasp_posture.fill(0.5);
+  SimulatedGlove late(hold({0, 0, 0}), parameters);
+  SimulatedGlove renewed(hold({0, 0, 0}), parameters);
+  const SafeCommand safe = test_support::safe_command(command, late.descriptor());
+  late.step(60 * kTick, safe);
+  for (int i = 0; i < 60; ++i)
+    renewed.step(kTick, safe);
+  EXPECT_LT(renewed.state().joint_angles[4], 0.15) << "the torque takes the finger 0.6 rad from the wearer's aim";
+  EXPECT_GT(late.state().joint_angles[4], 0.45) << "after ten of the 60 ms there is no torque any more";
+  EXPECT_GT(renewed.state().X_WH.translation().x(), 3 * late.state().X_WH.translation().x());
 }
 
 TEST(SimulatedGlove, RefusesParametersByName) {

@@ -2,7 +2,8 @@
 
 #include "life/held_contacts.h"
 
-#include <array>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -17,23 +18,48 @@ using test_support::at;
 
 constexpr std::int32_t kHeldBody = 2;
 
-/// A link 0 at the origin, which touches a part below it with its own origin.
+constexpr std::size_t kPalmOfFinger = 1;
+constexpr std::size_t kTip = 4;
+
+/// A hand whose wrist turns the palm. Its finger swings aside and lifts a metre from the tip, and curls 5 cm from it.
+std::shared_ptr<const KinematicChain> hand_with_a_finger() {
+  const auto joint = [](std::size_t number, double x, const Vector3d& axis) {
+    return ChainLink{.name = std::to_string(number),
+                     .parent = number - 1,
+                     .X_PJ = at(x),
+                     .axis_J = axis,
+                     .terms = {{number - 1, 1.0}}};
+  };
+  std::vector<FlexValue> values;
+  for (const char* name : {"wrist", "swing", "lift", "curl"})
+    values.push_back({.name = name, .lower = -4.0, .upper = 4.0});
+  return std::make_shared<const KinematicChain>(
+      values, std::vector<ChainLink>{{.name = "forearm"},
+                                     joint(kPalmOfFinger, 0.0, Vector3d::UnitY()),
+                                     joint(2, 0.0, Vector3d::UnitZ()),
+                                     joint(3, 0.0, -Vector3d::UnitY()),
+                                     joint(kTip, 0.95, -Vector3d::UnitY())});
+}
+
+/// The tip touches a part below it, at the origin, where all angles are 0.
 class HeldPart : public ::testing::Test {
  protected:
-  /// The links that touch after the target has gone this far.
-  std::vector<LinkContact> touching_at(double x, double z, const std::vector<LinkContact>& contacts = {}) {
-    held_.update(contacts, kHeldBody, at(0.0), std::array{at(0.0)}, std::array{at(x, 0.0, z)});
+  /// The links that touch after the target has gone this far: metres aside and up, and rad.
+  std::vector<LinkContact> touching_at(double y, double z, const std::vector<LinkContact>& contacts = {},
+                                       double curl = 0.0) {
+    held_.update(contacts, kHeldBody, at(0.0), {at(-1.0), {0.0, 0.0, 0.0, 0.0}}, {at(-1.0), {0.0, y, z, curl}});
     return {held_.contacts().begin(), held_.contacts().end()};
   }
   static std::vector<LinkContact> touch() {
     LinkContact touch{};
+    touch.link = kTip;
     touch.contact.n_W = Vector3d::UnitZ();
     touch.contact.p_W = Vector3d::Zero();
     touch.contact.obstacle = kHeldBody;
     touch.depth = 1e-3;
     return {touch};
   }
-  HeldContacts held_{1};
+  HeldContacts held_{hand_with_a_finger(), kPalmOfFinger};
 };
 
 TEST_F(HeldPart, IsTouchedOnByALinkThatHasHardlyLeftIt) {
@@ -51,7 +77,7 @@ TEST_F(HeldPart, IsPlainlyLeftAtAFewMillimetres) {
   EXPECT_TRUE(touching_at(0.0, 3e-3).empty()) << "between both, the contact of before only fades";
   EXPECT_TRUE(held_.left().empty());
   touching_at(0.0, 5e-3);
-  EXPECT_EQ(std::vector<std::size_t>(held_.left().begin(), held_.left().end()), std::vector<std::size_t>{0});
+  EXPECT_EQ(std::vector<std::size_t>(held_.left().begin(), held_.left().end()), std::vector<std::size_t>{kTip});
   EXPECT_TRUE(touching_at(0.0, 0.0).empty()) << "it must touch anew";
 }
 
@@ -66,6 +92,22 @@ TEST_F(HeldPart, IsNotLeftByATargetDeepWithinIt) {
   touching_at(0.0, -1e-3, touch());
   EXPECT_EQ(touching_at(20e-3, -10e-3).size(), 1U);
   EXPECT_TRUE(held_.left().empty());
+}
+
+TEST_F(HeldPart, IsNotLeftByAFingerThatClosesThroughIt) {
+  touching_at(0.0, 0.0, touch());
+  EXPECT_EQ(touching_at(0.0, 0.0, {}, -3.2).size(), 1U) << "the tip is a decimetre behind and 3 mm above the contact";
+  EXPECT_TRUE(held_.left().empty());
+  touching_at(0.0, 0.0, {}, 0.1);
+  EXPECT_EQ(held_.left().size(), 1U) << "now it is 5 mm more open than it was";
+}
+
+// What the wrist does, palm and part do together.
+TEST_F(HeldPart, IsNotLeftByTheWrist) {
+  touching_at(0.0, -1e-3, touch());
+  const Posture bent{at(-1.0) * test_support::turn(0.5, Vector3d::UnitY()), {-0.5, 0.0, 0.0, 0.0}};
+  held_.update({}, kHeldBody, at(0.0), bent, bent);
+  EXPECT_EQ(held_.contacts().size(), 1U);
 }
 
 }  // namespace

@@ -85,6 +85,27 @@ TEST(KinematicChain, AgreesWithTheProductOfExponentials) {
   }
 }
 
+TEST(KinematicChain, RatesOfAPointAreItsDifferences) {
+  constexpr double kStep = 1e-6;
+  RandomNumbers random(kChainSeed);
+  for (int run = 0; run < 50; ++run) {
+    const KinematicChain chain = random_chain(random, 12, 5);
+    const std::vector<double> values = random_values(random, chain);
+    const std::vector<Isometry3d> X_RL = poses_of(chain, values);
+    const std::size_t link = X_RL.size() - 1;
+    const Vector3d p_R = X_RL[link] * Vector3d(0.1, -0.2, 0.3);
+    const Vector3d n_R = Vector3d(2.0, 1.0, -2.0) / 3.0;
+    std::vector<double> rates(values.size(), 0.0);
+    chain.add_rates(link, p_R, n_R, X_RL, rates);
+    for (std::size_t v = 0; v < values.size(); ++v) {
+      std::vector<double> moved = values;
+      moved[v] += kStep;
+      const Vector3d way_R = poses_of(chain, moved)[link] * (X_RL[link].inverse() * p_R) - p_R;
+      ASSERT_NEAR(rates[v], n_R.dot(way_R) / kStep, 1e-4) << "run " << run << ", value " << v;
+    }
+  }
+}
+
 TEST(KinematicChain, KnowsWhichLinksAValueMoves) {
   RandomNumbers random(kChainSeed);
   for (int run = 0; run < 50; ++run) {
