@@ -16,6 +16,8 @@ namespace {
 /// Poses on a way out at which insets are looked at. Each step on it is certified in any case: this only tells whether
 /// it is worth going.
 constexpr int kLooksOnWay = 64;
+/// Corners move farther than faces: where a corner touches, the gap of an inset may be so many times what it should be.
+constexpr double kMuchOfGap = 1.02;
 
 /// Finds the seats of one part.
 class SeatsOfPart {
@@ -75,6 +77,15 @@ class SeatsOfPart {
     return collision::intersects(placed(other).body->tree, part_V().tree, X_OV(other), workspace_, distance);
   }
 
+  std::shared_ptr<const SlidingPart> inset_at(double depth) {
+    return std::make_shared<const SlidingPart>(std::make_shared<geometry::TriangleMesh>(inset_->at(depth)),
+                                               part_V().p_Vref());
+  }
+
+  double gap_of(const SlidingPart& inset_V, std::int32_t other) {
+    return collision::distance(placed(other).body->tree, inset_V.tree, X_OV(other), workspace_).distance;
+  }
+
   /// Nothing where no inset is free.
   std::optional<Seat> seat_in(std::int32_t other) {
     const double margin = margin_of_inset(other);
@@ -82,11 +93,14 @@ class SeatsOfPart {
     const auto depth = inset_->overlap(*placed(other).body, X_OV(other), kTouchingOfMargin * margin);
     if (!depth) return std::nullopt;
     if (*depth > margin && !may_depenetrate(other)) refuse(other, "");
-    const auto mesh = std::make_shared<geometry::TriangleMesh>(inset_->at(*depth + kGapOfInset * margin));
-    auto inset_V = std::make_shared<const SlidingPart>(mesh, part_V().p_Vref());
-    const double gap =
-        collision::distance(placed(other).body->tree, inset_V->tree, X_OV(other), workspace_, margin).distance;
-    const double lost = kGapOfInset * margin - gap;  // next to nothing
+    const double wanted = kGapOfInset * margin;
+    auto inset_V = inset_at(*depth + wanted);
+    double gap = gap_of(*inset_V, other);
+    if (gap > kMuchOfGap * wanted) {
+      inset_V = inset_at(*depth + wanted * wanted / gap);
+      gap = gap_of(*inset_V, other);
+    }
+    const double lost = wanted - gap;  // next to nothing
     if (lost > 0.5 * kClearanceOfInset * margin) return std::nullopt;
     return Seat{{other, body_}, *depth, margin, std::move(inset_V), kClearanceOfInset * margin - std::max(0.0, lost)};
   }

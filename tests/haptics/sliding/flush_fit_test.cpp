@@ -3,6 +3,7 @@
 // part that is made smaller by what it overlaps at the start.
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -162,6 +163,22 @@ TEST(FlushFit, OpensToTheMarginWhereThereIsRoom) {
   FlushFit flush(fit_of("box pushed along a table"), Isometry3d::Identity());
   flush.lead(5e-3 * Vector3d::UnitX());
   EXPECT_NEAR(flush.moved_A().z(), kMarginOfFits, 0.01 * kMarginOfFits);
+}
+
+// When the faces of a box move inwards, its corners move 1.7 times as far.
+TEST(TouchingParts, GetNoDeeperWhereACornerTouches) {
+  const Isometry3d X_start = pose({0.0, 0.0, 0.01 * std::sqrt(3.0)},
+                                  test_support::turn_from_to(Vector3d::Ones(), Vector3d::UnitZ()));
+  Sliding sliding({obstacle_of(geometry::make_box({0.1, 0.1, 0.02}, 12), pose({0.0, 0.0, -0.01}))},
+                  test_support::cube(0.02), X_start, {.rules = {.margin = kMarginOfFits}});
+  const auto lead = [&](double height) {
+    for (int i = 0; i < 50; ++i)
+      sliding.advance(Eigen::Translation3d(0.0, 0.0, height) * X_start);
+    return sliding.result().X_WV.translation().z() - X_start.translation().z();
+  };
+  EXPECT_GT(lead(-1e-3), -kDeeper * kMarginOfFits);
+  EXPECT_GT(lead(5e-3), 4e-3);
+  EXPECT_NEAR(lead(-1e-3), kMarginOfFits, 0.01 * kMarginOfFits) << "once it was apart, it is a part like any other";
 }
 
 double depth_of(const NominalFit& fit, double overlap) {
