@@ -23,8 +23,8 @@ class WearersView;
 /// i.e. of its given trajectory, until the first command arrives. So the server, which sends the commands, and the
 /// glove may start in either order. From the first command on, the script follows the clock, even if the thread misses
 /// periods, as long as the wearer's hand is answered: a wearer who sees the parts on the channel HAPTIC_STATE slows
-/// down when they lag behind the hand or the server is slow, stops when they stand still, and gives up waiting after a
-/// second.
+/// down when they lag behind the hand or the server is slow, stops when they stand still, and gives up waiting after
+/// three seconds.
 class SimulatedGloveService {
  public:
   /// Gets the new state and the command that led to it, in each period, in the thread of the service. Returns whether

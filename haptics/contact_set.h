@@ -148,7 +148,7 @@ struct GhostOfPart {
 
 /// One hand with fingers as the haptic thread knows it.
 struct GhostOfHand {
-  bool is_tracked = false;  ///< pose and angles are known, or were less than 0.1 s ago
+  bool is_tracked = false;  ///< the newest pose and angles came less than 0.1 s ago
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   devices::JointValues angles{};  ///< rad
   std::int32_t part = -1;         ///< number of the part that it holds; −1: none

@@ -223,8 +223,8 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] != nullptr) tick.hands[h] = render(h, *states[h], set, age, now, dt);
     if (!hands_[h]->fingers) continue;
-    const bool is_seen = poses[h].X_WH != nullptr && !tick.hands[h].command.reasons().is_state_old;
-    hands_[h]->fingers->note(is_seen ? states[h] : nullptr, tick.hands[h].part, dt);
+    const bool is_trusted = poses[h].X_WH != nullptr;
+    hands_[h]->fingers->note(is_trusted ? states[h] : nullptr, tick.hands[h].part, dt);
     tick.ghosts.hands[h] = hands_[h]->fingers->ghost();
   }
   return tick;

@@ -25,7 +25,7 @@ std::optional<std::chrono::nanoseconds> WearersView::age() const noexcept {
 double pace_for(std::chrono::nanoseconds age) noexcept {
   constexpr std::chrono::duration<double> kFluent = std::chrono::milliseconds(20);
   constexpr std::chrono::duration<double> kFrozen = std::chrono::milliseconds(100);
-  constexpr std::chrono::seconds kPatience{1};
+  constexpr std::chrono::seconds kPatience{3};
   if (age > kPatience) return 1.0;
   return std::clamp((kFrozen - age) / (kFrozen - kFluent), 0.0, 1.0);
 }

@@ -28,8 +28,8 @@ class WearersView {
 };
 
 /// The pace (0 to 1) of a wearer whose hand gets answers of such an age. People slow down when what they see and feel
-/// lags behind their hand, and stop when it stands still: as fast as the force of old contacts fades. After a second,
-/// they give up waiting.
+/// lags behind their hand, and stop when it stands still: as fast as the force of old contacts fades. After three
+/// seconds, they give up waiting.
 double pace_for(std::chrono::nanoseconds age) noexcept;
 
 }  // namespace glissade::devices

@@ -41,7 +41,7 @@ class FingersOfHand {
                                std::optional<std::size_t> held, const Wrench& on_hand, const Eigen::Vector3d& p_Wref,
                                double radius, double dt) noexcept;
 
-  /// Notes the state that was seen in a tick, or null, and the part that the hand holds.
+  /// Notes the newest state if it can be trusted, or null, and the part that the hand holds.
   void note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept;
   /// A hand whose states stay away for a moment is where it was last.
   const GhostOfHand& ghost() const { return ghost_; }
@@ -54,7 +54,8 @@ class FingersOfHand {
   bool is_found_ = false;          // the angles are those of a state
   std::int64_t decision_ = 0;
   GhostOfHand ghost_;
-  double unseen_s_ = 0.0;  // since the last state that could be trusted
+  std::optional<std::chrono::nanoseconds> seen_;  // the time of the last state that could be trusted
+  double unseen_s_ = 0.0;                         // since it came
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
 };
 

@@ -101,8 +101,8 @@ TEST(PaceOfTheWearer, FallsWithTheAgeOfAnswersUntilPatienceEnds) {
   EXPECT_EQ(pace_for(milliseconds(20)), 1.0);
   EXPECT_NEAR(pace_for(milliseconds(60)), 0.5, 1e-12);
   EXPECT_EQ(pace_for(milliseconds(100)), 0.0);
-  EXPECT_EQ(pace_for(milliseconds(1000)), 0.0);
-  EXPECT_EQ(pace_for(milliseconds(1001)), 1.0);
+  EXPECT_EQ(pace_for(milliseconds(3000)), 0.0);
+  EXPECT_EQ(pace_for(milliseconds(3001)), 1.0);
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 /// A hand with fingers in the haptic kernel: it holds what the simulation decides, a part moves with its palm, and its
 /// joints feel what stops them.
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <numbers>
@@ -160,6 +161,38 @@ TEST_F(FingerHandInKernel, IsWhereItWasLastForATenthOfASecondWithoutAngles) {
   for (int i = 0; i < 3; ++i)
     tick();
   EXPECT_FALSE(tick_.ghosts.hands[0].is_tracked);
+}
+
+// On a busy machine: too late for a force, but the hand is there, and carries its part.
+TEST_F(FingerHandInKernel, IsFollowedByStatesThatComeLate) {
+  using std::chrono::milliseconds;
+  tick();
+  decide(0);
+  tick();
+  for (int i = 1; i <= 300; ++i) {
+    now_ += kTickPeriod;
+    state_.time = std::max<std::chrono::nanoseconds>(state_.time, now_ - milliseconds(15));
+    state_.X_WH.translation().x() = 1e-4 * i;
+    ++state_.sequence;
+    const devices::GloveState* const newest = &state_;
+    tick_ = kernel_.tick({&newest, 1}, set_, now_);
+    ASSERT_TRUE(tick_.ghosts.hands[0].is_tracked) << i;
+  }
+  EXPECT_TRUE(tick_.hands[0].command.reasons().is_state_old);
+  EXPECT_NEAR(tick_.ghosts.hands[0].X_WH.translation().x(), 0.03, 1e-12);
+  EXPECT_NEAR(ghost(0).x(), 0.23, 1e-12);
+}
+
+TEST_F(FingerHandInKernel, IsLostATenthOfASecondAfterItsLastState) {
+  tick();
+  const devices::GloveState* const last = &state_;
+  const auto silent = [&](int milliseconds) {
+    for (int i = 0; i < milliseconds; ++i)
+      tick_ = kernel_.tick({&last, 1}, set_, now_ += kTickPeriod);
+    return !tick_.ghosts.hands[0].is_tracked;
+  };
+  EXPECT_FALSE(silent(98));
+  EXPECT_TRUE(silent(4));
 }
 
 TEST_F(FingerHandInKernel, AllocatesNothing) {
