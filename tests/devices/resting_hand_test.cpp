@@ -99,10 +99,14 @@ TEST(RestingHand, FeelsOneForceWhateverOthersTookOrGave) {
         const double before = hand.force();
         const double force = hand.step(ms < 600 ? 0.0 : 20.0);
         if (ms >= 700) alternations.see(force);  // the force has set in
-        if (ms >= 5000 && wearer_damping > 5.0) ASSERT_LE(std::abs(force - before), 0.01 * force) << ms;
+        if (ms >= 5000 && wearer_damping > 5.0) {
+          ASSERT_LE(std::abs(force - before), 0.01 * force) << ms;
+        }
       }
       EXPECT_EQ(alternations.count, 0);
-      if (wearer_damping > 5.0) EXPECT_GT(hand.force(), 19.0) << "one with less still swings";
+      if (wearer_damping > 5.0) {
+        EXPECT_GT(hand.force(), 19.0) << "one with less still swings";
+      }
     }
   });
 }

@@ -167,8 +167,8 @@ TEST(FlushFit, OpensToTheMarginWhereThereIsRoom) {
 
 // When the faces of a box move inwards, its corners move 1.7 times as far.
 TEST(TouchingParts, GetNoDeeperWhereACornerTouches) {
-  const Isometry3d X_start = pose({0.0, 0.0, 0.01 * std::sqrt(3.0)},
-                                  test_support::turn_from_to(Vector3d::Ones(), Vector3d::UnitZ()));
+  const Isometry3d X_start =
+      pose({0.0, 0.0, 0.01 * std::sqrt(3.0)}, test_support::turn_from_to(Vector3d::Ones(), Vector3d::UnitZ()));
   Sliding sliding({obstacle_of(geometry::make_box({0.1, 0.1, 0.02}, 12), pose({0.0, 0.0, -0.01}))},
                   test_support::cube(0.02), X_start, {.rules = {.margin = kMarginOfFits}});
   const auto lead = [&](double height) {
