@@ -70,9 +70,9 @@ class KinematicChain {
   void poses(const Eigen::Isometry3d& X_WR, std::span<const double> values,
              std::span<Eigen::Isometry3d> X_WL) const noexcept;
 
-  /// One row of the Jacobian: adds to `rates` how fast (m/rad) each flex value moves the point `p_W` of `link` along the
-  /// unit vector `n_W`, with the links at X_WL. `rates` has an entry for each value, zero for those that do not move the
-  /// link. Cost O(joints between the root and the link).
+  /// One row of the Jacobian: adds to `rates` how fast (m/rad) each flex value moves the point `p_W` of `link` along
+  /// the unit vector `n_W`, with the links at X_WL. `rates` has an entry for each value, zero for those that do not
+  /// move the link. Cost O(joints between the root and the link).
   void add_rates(std::size_t link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W,
                  std::span<const Eigen::Isometry3d> X_WL, std::span<double> rates) const noexcept;
 

@@ -33,12 +33,12 @@ std::shared_ptr<const KinematicChain> hand_with_a_finger() {
   std::vector<FlexValue> values;
   for (const char* name : {"wrist", "swing", "lift", "curl"})
     values.push_back({.name = name, .lower = -4.0, .upper = 4.0});
-  return std::make_shared<const KinematicChain>(
-      values, std::vector<ChainLink>{{.name = "forearm"},
-                                     joint(kPalmOfFinger, 0.0, Vector3d::UnitY()),
-                                     joint(2, 0.0, Vector3d::UnitZ()),
-                                     joint(3, 0.0, -Vector3d::UnitY()),
-                                     joint(kTip, 0.95, -Vector3d::UnitY())});
+  return std::make_shared<const KinematicChain>(values,
+                                                std::vector<ChainLink>{{.name = "forearm"},
+                                                                       joint(kPalmOfFinger, 0.0, Vector3d::UnitY()),
+                                                                       joint(2, 0.0, Vector3d::UnitZ()),
+                                                                       joint(3, 0.0, -Vector3d::UnitY()),
+                                                                       joint(kTip, 0.95, -Vector3d::UnitY())});
 }
 
 /// The tip touches a part below it, at the origin, where all angles are 0.
