@@ -136,7 +136,7 @@ GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& 
   for (std::chrono::nanoseconds passed{0}; passed < dt;) {
     const std::chrono::nanoseconds now = std::min(dt - passed, kLargestStep);
     const double h = std::chrono::duration<double>(now).count();
-    const double share = share_of_command(passed);
+    const double share = share_of_command(passed + now / 2);
     move_hand(h, pace, share * newest.values().f_H_W);
     turn_hand(h, pace, share * newest.values().t_H_W);
     move_fingers(h, share, newest.values().joint_torques);

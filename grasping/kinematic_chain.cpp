@@ -143,7 +143,7 @@ void KinematicChain::poses(const Eigen::Isometry3d& X_WR, std::span<const double
 
 void KinematicChain::add_rates(std::size_t link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W,
                                std::span<const Eigen::Isometry3d> X_WL, std::span<double> rates) const noexcept {
-  GLISSADE_ASSERT(X_WL.size() == links_.size());
+  GLISSADE_ASSERT(link < links_.size() && X_WL.size() == links_.size() && rates.size() >= values_.size());
   for (std::optional<std::size_t> l = link; l; l = links_[*l].parent) {
     if (links_[*l].terms.empty()) continue;
     const Eigen::Vector3d axis_W = X_WL[*l].linear() * links_[*l].axis_J;

@@ -71,8 +71,8 @@ class KinematicChain {
              std::span<Eigen::Isometry3d> X_WL) const noexcept;
 
   /// One row of the Jacobian: adds to `rates` how fast (m/rad) each flex value moves the point `p_W` of `link` along
-  /// the unit vector `n_W`, with the links at X_WL. `rates` has an entry for each value, zero for those that do not
-  /// move the link. Cost O(joints between the root and the link).
+  /// the unit vector `n_W`, with the links at X_WL and the root at rest. `rates` has an entry for each value; values
+  /// that do not move the link keep theirs. Cost O(joints between the root and the link).
   void add_rates(std::size_t link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W,
                  std::span<const Eigen::Isometry3d> X_WL, std::span<double> rates) const noexcept;
 

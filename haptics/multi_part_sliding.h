@@ -39,9 +39,9 @@ class ContactScene;
 /// instead the length of a translation that leads out of the body. Cost: some hundred collision queries.
 double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
 
-/// The mesh of a part with all of its faces `depth` (metres) further inside; that of an open surface as it is.
-/// Triangles keep their numbers.
-geometry::TriangleMesh inset_mesh(const SlidingPart& part_V, double depth);
+/// The mesh of a part with all of its faces `depth` (metres) further inside; none of an open surface. Triangles keep
+/// their numbers.
+std::optional<geometry::TriangleMesh> inset_mesh(const SlidingPart& part_V, double depth);
 
 /// Whether a part at X_BV is wholly inside the closed surface of a body, which it does not touch.
 bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);

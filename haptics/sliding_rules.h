@@ -64,7 +64,7 @@ inline constexpr std::size_t kMaxParts = 4;
 
 /// The treatment of a part that overlaps an obstacle at its start by more than its margin. Two parts must never overlap
 /// so far at their start. Parts may always touch, and overlap by a margin: a part then goes wherever it gets no deeper
-/// in, to a twentieth of the margin, and is apart as soon as there is room.
+/// in, to a twentieth of the margin (docs/sliding.md: to more at some corners), and is apart as soon as there is room.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< the constructor of the simulation (`Sliding`, `MultiPartSliding`) throws
   /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per

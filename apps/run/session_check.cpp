@@ -32,24 +32,30 @@ std::vector<StartingPart> starting_parts(const HapticScene& scene) {
 }
 
 /// What must never collide of a part: all of it, or if it touches or overlaps others at its start, what is inside of
-/// the faces that do.
+/// the faces that do. An open part has no inside: it is checked a little farther away from these others.
 std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& scene,
                                                             const std::vector<StartingPart>& parts, std::size_t part) {
   const std::shared_ptr<const haptics::SlidingPart>& part_V = parts[part].part_V;
-  const Eigen::Isometry3d& X_WV = parts[part].X_WV;
   collision::QueryWorkspace workspace;
-  std::optional<double> depth;
+  double depth = 0.0;
+  Eigen::Vector3d away_V = Eigen::Vector3d::Zero();
+  bool touches = false;
   const auto look_at = [&](const haptics::ContactBody& body, const Eigen::Isometry3d& X_WB) {
-    const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * X_WV;
+    const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * parts[part].X_WV;
     if (!collision::intersects(body.tree, part_V->tree, X_BV, workspace, kTouching_m)) return;
-    depth = std::max(depth.value_or(0.0), haptics::overlap_depth(body, *part_V, X_BV));
+    touches = true;
+    depth = std::max(depth, haptics::overlap_depth(body, *part_V, X_BV));
+    away_V += X_BV.linear().transpose() *
+              collision::find_way_out(body.tree, part_V->tree, X_BV, workspace, kDeeper_m).way_out_A;
   };
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     look_at(*obstacle.body, obstacle.X_WO);
   for (std::size_t other = 0; other < part; ++other)
     look_at(*parts[other].part_V, parts[other].X_WV);
-  if (!depth) return {part_V, &part_V->tree.mesh()};
-  return std::make_shared<const geometry::TriangleMesh>(haptics::inset_mesh(*part_V, *depth + kDeeper_m));
+  if (!touches) return {part_V, &part_V->tree.mesh()};
+  std::optional<geometry::TriangleMesh> inside = haptics::inset_mesh(*part_V, depth + kDeeper_m);
+  if (!inside) inside = geometry::transformed(part_V->tree.mesh(), Eigen::Isometry3d(Eigen::Translation3d(away_V)));
+  return std::make_shared<const geometry::TriangleMesh>(std::move(*inside));
 }
 
 }  // namespace

@@ -42,5 +42,7 @@ inline constexpr std::size_t kLittleRingValue = 18;
 inline constexpr std::size_t kPalmArchValue = 19;
 inline constexpr std::size_t kWristFlexionValue = 20;
 inline constexpr std::size_t kWristAbductionValue = 21;
+/// Those that bend the thumb or a finger towards the palm where they grow.
+inline constexpr std::array<std::size_t, 14> kFlexionValues{1, 2, 4, 5, 6, 7, 8, 9, 11, 12, 13, 15, 16, 17};
 
 }  // namespace glissade::grasping

@@ -34,7 +34,7 @@ GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::ve
       clasp_(chain_of(model_), fixed, std::move(parts), rules),
       analysis_(*model_, fixed.size()),
       now_(*model_, fixed.size()),
-      held_(chain_of(model_), kPalmLink),
+      held_(chain_of(model_), kPalmLink, kFlexionValues),
       speeds_(chain_of(model_), clasp_.bodies()),
       X_WL_(model_->chain.links().size()),
       X_WB_(links_.size()) {}
@@ -88,7 +88,7 @@ void GraspingHand::take(std::size_t part, const Eigen::Isometry3d& X_WV) {
   const Posture& posture = clasp_.posture();
   part_ = part;
   is_late_ = false;
-  held_.begin(clasp_.contacts());
+  held_.begin(clasp_.contacts(), first_part_ + static_cast<std::int32_t>(part), X_WV, posture);
   X_PV_ = (posture.X_WR * palm(posture.values)).inverse(Eigen::Isometry) * X_WV;
 }
 

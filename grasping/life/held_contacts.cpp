@@ -1,6 +1,8 @@
 #include "life/held_contacts.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -13,33 +15,36 @@ double sum_of(const std::vector<double>& rates, const std::vector<double>& value
 
 }  // namespace
 
-HeldContacts::HeldContacts(std::shared_ptr<const KinematicChain> chain, std::size_t palm)
+HeldContacts::HeldContacts(std::shared_ptr<const KinematicChain> chain, std::size_t palm,
+                           std::span<const std::size_t> flexions)
     : chain_(std::move(chain)),
       palm_(palm),
+      flexions_(flexions.begin(), flexions.end()),
       X_WL_(chain_->links().size()),
       X_WL_target_(chain_->links().size()),
       last_(chain_->links().size()) {}
 
-void HeldContacts::begin(const std::vector<LinkContact>& contacts) {
+void HeldContacts::begin(const std::vector<LinkContact>& contacts, std::int32_t body, const Eigen::Isometry3d& X_WV,
+                         const Posture& visible) {
   std::fill(last_.begin(), last_.end(), std::nullopt);
-  contacts_ = contacts;
+  update(contacts, body, X_WV, visible, visible);
 }
 
-HeldContacts::LastContact HeldContacts::last_contact(const LinkContact& touch, const Eigen::Isometry3d& X_VW,
-                                                     const Posture& visible) const {
-  const haptics::Contact& contact = touch.contact;
-  std::vector<double> rates(visible.values.size(), 0.0);
-  chain_->add_rates(touch.link, contact.p_W, contact.n_W, X_WL_, rates);
+std::vector<double> HeldContacts::opening_rates(const LinkContact& touch) const {
+  const auto rates_along = [&](const Eigen::Vector3d& n_W) {
+    std::vector<double> rates(chain_->values().size(), 0.0);
+    chain_->add_rates(touch.link, touch.contact.p_W, n_W, X_WL_, rates);
+    return rates;
+  };
+  std::vector<double> rates = rates_along(touch.contact.n_W);
+  const std::array along{rates_along(Eigen::Vector3d::UnitX()), rates_along(Eigen::Vector3d::UnitY()),
+                         rates_along(Eigen::Vector3d::UnitZ())};
+  for (const std::size_t v : flexions_)
+    rates[v] = -std::hypot(along[0][v], along[1][v], along[2][v]);
   for (std::size_t v = 0; v < rates.size(); ++v) {
     if (chain_->moves(v, palm_)) rates[v] = 0.0;
   }
-  const double opened = sum_of(rates, visible.values);
-  return {.touch = touch,
-          .p_L = X_WL_[touch.link].inverse(Eigen::Isometry) * contact.p_W,
-          .q_V = X_VW * contact.q_W(),
-          .n_V = X_VW.linear() * contact.n_W,
-          .rates = std::move(rates),
-          .opened = opened};
+  return rates;
 }
 
 void HeldContacts::update(const std::vector<LinkContact>& contacts, std::int32_t body, const Eigen::Isometry3d& X_WV,
@@ -57,12 +62,20 @@ void HeldContacts::update(const std::vector<LinkContact>& contacts, std::int32_t
       if (is_of_both && (deepest == nullptr || touch.depth > deepest->depth)) deepest = &touch;
     }
     if (deepest != nullptr) {
-      last = last_contact(*deepest, X_VW, visible);
+      const haptics::Contact& contact = deepest->contact;
+      std::vector<double> rates = opening_rates(*deepest);
+      const double opened = sum_of(rates, visible.values);
+      last = {*deepest,
+              X_WL_[link].inverse(Eigen::Isometry) * contact.p_W,
+              X_VW * contact.q_W(),
+              X_VW.linear() * contact.n_W,
+              std::move(rates),
+              opened};
       continue;
     }
     if (!last) continue;
     const double away = sum_of(last->rates, target.values) - last->opened;
-    // A target that lies within the part goes anywhere aside: nothing may hold the fingers of the glove back.
+    // One that is closed may go anywhere aside: nothing may hold the fingers of the glove back.
     const Eigen::Vector3d from_part_V = X_VW * (X_WL_target_[link] * last->p_L) - last->q_V;
     const double aside = away > -kWithin_m ? (from_part_V - last->n_V.dot(from_part_V) * last->n_V).norm() : 0.0;
     if (away > kAway_m || aside > kAside_m) {

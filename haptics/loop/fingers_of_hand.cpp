@@ -69,8 +69,8 @@ devices::JointValues FingersOfHand::torques(const devices::GloveState& state, co
 void FingersOfHand::note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept {
   constexpr double kPatience_s = 0.1;
   // One that comes late may be too old for a force, but tells all the same where the hand is.
-  const bool is_new = seen != nullptr && std::exchange(seen_, seen->time) != seen->time;
-  unseen_s_ = is_new ? 0.0 : unseen_s_ + dt;
+  const bool has_come = seen != nullptr && std::exchange(time_seen_, seen->time) != seen->time;
+  unseen_s_ = has_come ? 0.0 : unseen_s_ + dt;
   ghost_.part = part ? static_cast<std::int32_t>(*part) : -1;
   ghost_.is_tracked = is_found_ && unseen_s_ < kPatience_s;
   if (seen == nullptr) return;

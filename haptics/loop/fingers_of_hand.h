@@ -54,8 +54,8 @@ class FingersOfHand {
   bool is_found_ = false;          // the angles are those of a state
   std::int64_t decision_ = 0;
   GhostOfHand ghost_;
-  std::optional<std::chrono::nanoseconds> seen_;  // the time of the last state that could be trusted
-  double unseen_s_ = 0.0;                         // since it came
+  std::optional<std::chrono::nanoseconds> time_seen_;  // of the last state that could be trusted
+  double unseen_s_ = 0.0;                              // since it came
   Eigen::Isometry3d X_WP_ = Eigen::Isometry3d::Identity();
 };
 

@@ -22,9 +22,10 @@ double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const E
   return way_out > touching ? way_out : 0.0;
 }
 
-geometry::TriangleMesh inset_mesh(const SlidingPart& part_V, double depth) {
+std::optional<geometry::TriangleMesh> inset_mesh(const SlidingPart& part_V, double depth) {
   Inset inset(part_V.tree.mesh());
-  return inset.exists() ? inset.at(depth) : part_V.tree.mesh();
+  if (!inset.exists()) return std::nullopt;
+  return inset.at(depth);
 }
 
 bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV) {

@@ -9,6 +9,7 @@
 #include <glissade/collision/dop_query.h>
 
 #include "sliding/inset.h"
+#include "sliding/orientation.h"
 
 namespace glissade::haptics {
 namespace {
@@ -18,6 +19,8 @@ namespace {
 constexpr int kLooksOnWay = 64;
 /// Corners move farther than faces: where a corner touches, the gap of an inset may be so many times what it should be.
 constexpr double kMuchOfGap = 1.02;
+/// Of the margin: an open part that must move farther to be free does not only touch.
+constexpr double kFarthestAside = 2.0;
 
 /// Finds the seats of one part.
 class SeatsOfPart {
@@ -90,6 +93,7 @@ class SeatsOfPart {
   std::optional<Seat> seat_in(std::int32_t other) {
     const double margin = margin_of_inset(other);
     if (!inset_) inset_.emplace(part_V().tree.mesh());
+    if (!inset_->exists()) return seat_of_open_part(other, margin);
     const auto depth = inset_->overlap(*placed(other).body, X_OV(other), kTouchingOfMargin * margin);
     if (!depth) return std::nullopt;
     if (*depth > margin && !may_depenetrate(other)) refuse(other, "");
@@ -103,6 +107,27 @@ class SeatsOfPart {
     const double lost = wanted - gap;  // next to nothing
     if (lost > 0.5 * kClearanceOfInset * margin) return std::nullopt;
     return Seat{{other, body_}, *depth, margin, std::move(inset_V), kClearanceOfInset * margin - std::max(0.0, lost)};
+  }
+
+  /// Nothing where no short way leads out: where the part also touches the body from the other side. A sheet that lies
+  /// on a closed body may be as near to the inside of the body, which is no way out.
+  std::optional<Seat> seat_of_open_part(std::int32_t other, double margin) {
+    const double wanted = kGapOfInset * margin;
+    const ContactBody& body = *placed(other).body;
+    const Eigen::Vector3d way_O =
+        collision::find_way_out(body.tree, part_V().tree, X_OV(other), workspace_, wanted).way_out_A;
+    if (way_O.norm() > kFarthestAside * margin) return std::nullopt;
+    for (const double side : {1.0, -1.0}) {
+      const Eigen::Vector3d way_V = side * X_OV(other).linear().transpose() * way_O;
+      const auto mesh = std::make_shared<geometry::TriangleMesh>(
+          geometry::transformed(part_V().tree.mesh(), Eigen::Isometry3d(Eigen::Translation3d(way_V))));
+      auto aside_V = std::make_shared<const SlidingPart>(mesh, part_V().p_Vref());
+      const double min_clearance = kClearanceOfInset * margin;
+      if (gap_of(*aside_V, other) < min_clearance || encloses(body.tree.mesh(), X_OV(other) * mesh->corner(0, 0)))
+        continue;
+      return Seat{{other, body_}, std::max(0.0, way_O.norm() - wanted), margin, std::move(aside_V), min_clearance};
+    }
+    return std::nullopt;
   }
 
   std::optional<Eigen::Vector3d> way_out(const Seat& seat) {

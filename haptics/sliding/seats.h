@@ -3,9 +3,10 @@
 /// Parts that touch or overlap other bodies where the simulation starts. Such a pair of bodies is a seat. No direction
 /// separates it, so no certificate can hold for it. Instead, what certificates and contacts keep apart from the other
 /// body is the part's inset, i.e. the part with its faces so far inside that it is just free: it moves with the part
-/// and is in no other body's way. So the part can go wherever it overlaps the other body no deeper than at the start
-/// (to a twentieth of the margin), and never through one of its surfaces. Once part and body are apart, the inset goes,
-/// and they are a pair like any other.
+/// and is in no other body's way. An open part has no inside; its inset is a copy of it, so far aside. So the part can
+/// go wherever it overlaps the other body no deeper than at the start (to a twentieth of the margin; at corners to half
+/// of it, if a face touches the same body too), and never through one of its surfaces. Once part and body are apart,
+/// the inset goes, and they are a pair like any other.
 
 #include <memory>
 #include <optional>

@@ -233,6 +233,22 @@ TEST(SimulatedGlove, DoesNotGoOnForLongUnderACommandThatIsLate) {
   EXPECT_GT(renewed.state().X_WH.translation().x(), 3 * late.state().X_WH.translation().x());
 }
 
+// An arm without a wearer keeps the speed that the command has given it.
+TEST(SimulatedGlove, ExertsALateCommandForTenPeriods) {
+  GloveCommand command;
+  command.f_H_W = Vector3d(8, 0, 0);
+  SimulatedGloveParameters parameters;
+  parameters.arm_damping = parameters.wearer_damping = 0.0;
+  parameters.wearer_stiffness = 1e-6;
+  const auto speed_after = [&](int ticks) {
+    SimulatedGlove glove(hold({0, 0, 0}), parameters);
+    return glove.step(ticks * kTick, test_support::safe_command(command, glove.descriptor())).v_WH.x();
+  };
+  EXPECT_NEAR(speed_after(3), 3e-3 * 8 / 0.8, 1e-9);
+  EXPECT_NEAR(speed_after(10), 6.5e-3 * 8 / 0.8, 1e-9) << "seven periods fade: half of them";
+  EXPECT_NEAR(speed_after(60), speed_after(10), 1e-9);
+}
+
 TEST(SimulatedGlove, RefusesParametersByName) {
   const auto complaint = [](const SimulatedGloveParameters& parameters) -> std::string {
     try {

@@ -2,6 +2,7 @@
 
 #include "life/held_contacts.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,8 +21,10 @@ constexpr std::int32_t kHeldBody = 2;
 
 constexpr std::size_t kPalmOfFinger = 1;
 constexpr std::size_t kTip = 4;
+constexpr std::array<std::size_t, 2> kFlexions{2, 3};
 
-/// A hand whose wrist turns the palm. Its finger swings aside and lifts a metre from the tip, and curls 5 cm from it.
+/// A hand whose wrist turns the palm. Its finger swings aside and bends down a metre from the tip, and curls 5 cm from
+/// it.
 std::shared_ptr<const KinematicChain> hand_with_a_finger() {
   const auto joint = [](std::size_t number, double x, const Vector3d& axis) {
     return ChainLink{.name = std::to_string(number),
@@ -31,14 +34,14 @@ std::shared_ptr<const KinematicChain> hand_with_a_finger() {
                      .terms = {{number - 1, 1.0}}};
   };
   std::vector<FlexValue> values;
-  for (const char* name : {"wrist", "swing", "lift", "curl"})
+  for (const char* name : {"wrist", "swing", "bend", "curl"})
     values.push_back({.name = name, .lower = -4.0, .upper = 4.0});
   return std::make_shared<const KinematicChain>(values,
                                                 std::vector<ChainLink>{{.name = "forearm"},
                                                                        joint(kPalmOfFinger, 0.0, Vector3d::UnitY()),
                                                                        joint(2, 0.0, Vector3d::UnitZ()),
-                                                                       joint(3, 0.0, -Vector3d::UnitY()),
-                                                                       joint(kTip, 0.95, -Vector3d::UnitY())});
+                                                                       joint(3, 0.0, Vector3d::UnitY()),
+                                                                       joint(kTip, 0.95, Vector3d::UnitY())});
 }
 
 /// The tip touches a part below it, at the origin, where all angles are 0.
@@ -47,7 +50,7 @@ class HeldPart : public ::testing::Test {
   /// The links that touch after the target has gone this far: metres aside and up, and rad.
   std::vector<LinkContact> touching_at(double y, double z, const std::vector<LinkContact>& contacts = {},
                                        double curl = 0.0) {
-    held_.update(contacts, kHeldBody, at(0.0), {at(-1.0), {0.0, 0.0, 0.0, 0.0}}, {at(-1.0), {0.0, y, z, curl}});
+    held_.update(contacts, kHeldBody, at(0.0), {at(-1.0), {0.0, 0.0, 0.0, 0.0}}, {at(-1.0), {0.0, y, -z, curl}});
     return {held_.contacts().begin(), held_.contacts().end()};
   }
   static std::vector<LinkContact> touch() {
@@ -59,7 +62,7 @@ class HeldPart : public ::testing::Test {
     touch.depth = 1e-3;
     return {touch};
   }
-  HeldContacts held_{hand_with_a_finger(), kPalmOfFinger};
+  HeldContacts held_{hand_with_a_finger(), kPalmOfFinger, kFlexions};
 };
 
 TEST_F(HeldPart, IsTouchedOnByALinkThatHasHardlyLeftIt) {
@@ -96,10 +99,25 @@ TEST_F(HeldPart, IsNotLeftByATargetDeepWithinIt) {
 
 TEST_F(HeldPart, IsNotLeftByAFingerThatClosesThroughIt) {
   touching_at(0.0, 0.0, touch());
-  EXPECT_EQ(touching_at(0.0, 0.0, {}, -3.2).size(), 1U) << "the tip is a decimetre behind and 3 mm above the contact";
+  EXPECT_EQ(touching_at(0.0, 0.0, {}, 3.2).size(), 1U) << "the tip is a decimetre behind and 3 mm above the contact";
   EXPECT_TRUE(held_.left().empty());
-  touching_at(0.0, 0.0, {}, 0.1);
+  touching_at(0.0, 0.0, {}, -0.1);
   EXPECT_EQ(held_.left().size(), 1U) << "now it is 5 mm more open than it was";
+}
+
+// The tip touches from below, and where the finger bends at its root, it goes down from there.
+TEST_F(HeldPart, IsNotLeftByAHookThatCloses) {
+  std::vector<LinkContact> below = touch();
+  below.front().contact.n_W = -Vector3d::UnitZ();
+  touching_at(0.0, 0.0, below);
+  EXPECT_EQ(touching_at(0.0, -10e-3).size(), 1U);
+  touching_at(0.0, 5e-3);
+  EXPECT_EQ(held_.left().size(), 1U);
+}
+
+TEST_F(HeldPart, IsRememberedFromTheMomentOfTaking) {
+  held_.begin(touch(), kHeldBody, at(0.0), {at(-1.0), {0.0, 0.0, 0.0, 0.0}});
+  EXPECT_EQ(touching_at(0.0, 0.0, {}, 3.2).size(), 1U);
 }
 
 // What the wrist does, palm and part do together.

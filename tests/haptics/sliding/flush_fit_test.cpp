@@ -148,10 +148,10 @@ TEST_P(FlushFits, AreBlockedInOtherDirections) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, FlushFits, testing::Range<std::size_t>(0, 17));
+INSTANTIATE_TEST_SUITE_P(All, FlushFits, testing::Range<std::size_t>(0, 20));
 
 TEST(FlushFits, AreAllTested) {
-  EXPECT_EQ(nominal_fits().size(), 17u);
+  EXPECT_EQ(nominal_fits().size(), 20u);
 }
 
 const NominalFit& fit_of(const std::string& name) {
@@ -176,9 +176,37 @@ TEST(TouchingParts, GetNoDeeperWhereACornerTouches) {
       sliding.advance(Eigen::Translation3d(0.0, 0.0, height) * X_start);
     return sliding.result().X_WV.translation().z() - X_start.translation().z();
   };
-  EXPECT_GT(lead(-1e-3), -kDeeper * kMarginOfFits);
+  EXPECT_GT(lead(-1e-3), -0.05 * kMarginOfFits);
   EXPECT_GT(lead(5e-3), 4e-3);
   EXPECT_NEAR(lead(-1e-3), kMarginOfFits, 0.01 * kMarginOfFits) << "once it was apart, it is a part like any other";
+}
+
+TEST(TouchingParts, AnOpenOneLiesFlatAndGoesWhereItIsFree) {
+  const auto plate = part_of(geometry::make_plate({0.04, 0.04}, 2));
+  Sliding sliding({obstacle_of(geometry::make_box({0.2, 0.2, 0.02}, 12), pose({0.0, 0.0, -0.01}))}, plate,
+                  Isometry3d::Identity(), {.rules = {.margin = kMarginOfFits}});
+  const auto lead = [&](const Vector3d& to) {
+    for (int i = 0; i < 100; ++i)
+      sliding.advance(pose(to));
+    return Vector3d(sliding.result().X_WV.translation());
+  };
+  EXPECT_GT(lead({0.0, 0.0, -2e-3}).z(), -kDeeper * kMarginOfFits);
+  const Vector3d aside = lead({5e-3, 3e-3, -2e-3});
+  EXPECT_LT((aside - Vector3d(5e-3, 3e-3, 0.0)).norm(), 2.0 * kMarginOfFits);
+  EXPECT_LT((lead({5e-3, 3e-3, 4e-3}) - Vector3d(5e-3, 3e-3, 4e-3)).norm(), 1e-9);
+}
+
+TEST(TouchingParts, AnOpenOneSlidesBetweenTwoBodiesAndIsRefusedBetweenTwoFacesOfOne) {
+  const auto plate = part_of(geometry::make_plate({0.04, 0.04}, 2));
+  const geometry::TriangleMesh box = geometry::make_box({0.2, 0.2, 0.02}, 12);
+  Sliding sliding({obstacle_of(box, pose({0.0, 0.0, -0.01})), obstacle_of(box, pose({0.0, 0.0, 0.01}))}, plate,
+                  Isometry3d::Identity(), {.rules = {.margin = kMarginOfFits}});
+  for (int i = 0; i < 100; ++i)
+    sliding.advance(pose({5e-3, 0.0, 1e-3}));
+  EXPECT_LT((sliding.result().X_WV.translation() - Vector3d(5e-3, 0.0, 0.0)).norm(), kDeeper * kMarginOfFits);
+  const std::vector<geometry::TriangleMesh> faces{geometry::transformed(box, pose({0.0, 0.0, -0.01})),
+                                                  geometry::transformed(box, pose({0.0, 0.0, 0.01}))};
+  EXPECT_THROW(Sliding({obstacle_of(geometry::merge(faces))}, plate, Isometry3d::Identity()), std::invalid_argument);
 }
 
 double depth_of(const NominalFit& fit, double overlap) {

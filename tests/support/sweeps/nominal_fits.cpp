@@ -216,6 +216,38 @@ std::vector<NominalFit> on_supports() {
   };
 }
 
+/// An open part: a sheet in the plane y = 0, from z = 0 upward. Its edges touch; inwards is away from them.
+std::function<TriangleMesh(double)> sheet_part(double left, const Vector3d& inwards) {
+  return [=](double depth) {
+    const Vector3d p = depth * inwards;
+    TriangleMesh mesh;
+    for (const auto& [x, z] : {std::pair(left, 0.0), {0.03, 0.0}, {0.03, 0.03}, {left, 0.03}})
+      mesh.vertices.push_back(p + Vector3d(x, 0.0, z));
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return mesh;
+  };
+}
+
+std::vector<NominalFit> of_sheets() {
+  return {
+      {"sheet on its edge",
+       sheet_part(-0.03, kZ),
+       {block({-0.2, -0.2, -0.02}, {0.2, 0.2, 0.0})},
+       0.03 * Vector3d(1.0, 0.3, 0.5),
+       {-kZ}},
+      {"sheet on its edge on a sheet",
+       sheet_part(-0.03, kZ),
+       {geometry::make_plate({0.4, 0.4}, 2)},
+       0.03 * Vector3d(1.0, 0.3, 0.5),
+       {-kZ}},
+      {"sheet in a corner",
+       sheet_part(0.0, kX + kZ),
+       {block({-0.02, -0.1, -0.01}, {0.0, 0.1, 0.1}), block({0.0, -0.1, -0.01}, {0.1, 0.1, 0.0})},
+       0.03 * Vector3d(1.0, 0.3, 1.0),
+       {-kZ, -kX}},
+  };
+}
+
 std::vector<NominalFit> in_seats() {
   const Outline shaft{{0.0096, -0.003}, {0.0120, -0.003}, {0.0120, 0.003}, {0.0096, 0.003},
                       {0.0, 0.01},      {-0.01, 0.0},     {0.0, -0.01}};
@@ -260,7 +292,7 @@ std::vector<NominalFit> in_seats() {
 const std::vector<NominalFit>& nominal_fits() {
   static const std::vector<NominalFit> fits = [] {
     std::vector<NominalFit> all = guides();
-    for (std::vector<NominalFit> more : {on_supports(), in_seats()}) {
+    for (std::vector<NominalFit> more : {on_supports(), of_sheets(), in_seats()}) {
       for (NominalFit& fit : more)
         all.push_back(std::move(fit));
     }

@@ -100,7 +100,7 @@ class TortureRun {
         sliding_(scene_.obstacles, scene_.part_V, scene_.X_WV_start, options_),
         hand_(scene_, random_),
         touches_(start_distance(scene_.part_V->tree.mesh()) < kTouches * sliding_.margin()),
-        checked_(touches_ ? inset_mesh(*scene_.part_V, kDeeper * sliding_.margin()) : scene_.part_V->tree.mesh()),
+        checked_(mesh_to_check()),
         grid_(placed()),
         swept_(scene_.obstacles, checked_, scene_.part_V->p_Vref()) {
     milliseconds_ = random_.chance(0.1) ? 3.0 : 1.0;
@@ -118,6 +118,11 @@ class TortureRun {
   }
 
  private:
+  geometry::TriangleMesh mesh_to_check() const {
+    const geometry::TriangleMesh& whole = scene_.part_V->tree.mesh();
+    return touches_ ? inset_mesh(*scene_.part_V, kDeeper * sliding_.margin()).value_or(whole) : whole;
+  }
+
   std::vector<reference::PlacedMesh> placed() const {
     std::vector<reference::PlacedMesh> meshes;
     for (const Obstacle& obstacle : scene_.obstacles)
