@@ -52,7 +52,7 @@ bool MissedGrasp::is_worth_more(const Touch& touch, const Touch& other) const {
 
 std::string MissedGrasp::text() const {
   if (has_held_) return "";
-  if (!longest_) return "it touched nothing";
+  if (!longest_) return "it touched nothing for more than a moment";
   const Touch& touch = *longest_;
   const bool is_known = touch.object >= 0;
   const std::string object = is_known ? in_quotes(names_[static_cast<std::size_t>(touch.object)]) : "something";

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <iostream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -102,11 +103,15 @@ double tick_seconds(const Session& session) {
 
 std::string limits_text(const HandSummary& hand, double tick_s) {
   std::string text;
-  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i) {
-    if (hand.limited_ticks[i] == 0) continue;
-    text += formatted("%s%s %.3f s", text.empty() ? "" : ", ", std::string(devices::kLimitReasons[i].name).c_str(),
-                      tick_s * static_cast<double>(hand.limited_ticks[i]));
-  }
+  const auto add = [&](std::string_view reason, std::int64_t ticks) {
+    if (ticks == 0) return;
+    text += formatted("%s%s %.3f s", text.empty() ? "" : ", ", std::string(reason).c_str(),
+                      tick_s * static_cast<double>(ticks));
+  };
+  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i)
+    add(devices::kLimitReasons[i].name, hand.limited_ticks[i]);
+  add("contacts below half of their force", hand.lagging_ticks);
+  add("contacts without a solution", hand.unsolved_ticks);
   return text.empty() ? "none" : text;
 }
 

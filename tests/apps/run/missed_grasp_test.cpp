@@ -71,7 +71,7 @@ TEST(MissedGrasp, PrefersTheLongestTouchOfWhatHandsCanHold) {
 }
 
 TEST(MissedGrasp, TellsOfTouchesOfNothingAndOfWhatNoHandCanHold) {
-  EXPECT_EQ(MissedGrasp().text(), "it touched nothing");
+  EXPECT_EQ(MissedGrasp().text(), "it touched nothing for more than a moment");
   MissedGrasp of_table = on_table();
   touch(of_table, 0.5, 0.7, push_of(kTable, {kPalm}));
   EXPECT_EQ(of_table.text(), "it touched 'table' from 0.500 to 0.700 s, which no hand can hold");

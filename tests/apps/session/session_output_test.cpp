@@ -93,6 +93,14 @@ TEST(SessionText, SaysWhyAHandWithFingersHeldNothing) {
   EXPECT_EQ(to_json(summary, session)["hands"][0]["missed_grasp"], "it touched nothing");
 }
 
+TEST(SessionText, SaysForHowLongAHandFeltLessThanItsContacts) {
+  const Session session = session_of(10);
+  SessionSummary summary = summary_of(session);
+  summary.hands[0].lagging_ticks = 2624;
+  EXPECT_THAT(to_text(summary, session, false),
+              HasSubstr("time with reduced force    contacts below half of their force 2.624 s\n"));
+}
+
 TEST(SessionText, WarnsIfMostCallsEndedEarlyInRealTime) {
   Session session = session_of(10);
   session.calls.calls = 10;
