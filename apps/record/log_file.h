@@ -17,9 +17,12 @@ class LogFile {
   /// log.
   LogFile(const std::string& path, const std::string& label);
 
-  /// As those of `EventLogReader`.
+  /// As that of `EventLogReader`.
   std::optional<devices::LogEvent> next();
-  const std::string& damage() const noexcept { return reader_.damage(); }
+  /// Notes an event of a known channel that cannot be read.
+  void note_unreadable(const devices::LogEvent& event);
+  /// A sentence on the damage at which the log ends, else on the events that cannot be read; empty if there are none.
+  std::string damage() const;
 
   const std::string& path() const noexcept { return path_; }
 
@@ -28,6 +31,9 @@ class LogFile {
   devices::EventLogReader reader_;
   ProgressBar progress_;
   std::int64_t bytes_ = 0;
+  std::int64_t events_ = 0;
+  std::int64_t unreadable_ = 0;
+  std::string first_unreadable_;
 };
 
 }  // namespace glissade::apps

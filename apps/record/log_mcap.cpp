@@ -105,7 +105,8 @@ class McapLog {
     if (newest_) earliest_ = *newest_ + std::chrono::seconds(1);
   }
 
-  void add(const devices::LogEvent& event) {
+  /// Returns false for an event that should be a message and cannot be read.
+  bool add(const devices::LogEvent& event) {
     if (auto tick = haptics::consumed_by_tick(event)) {
       const std::chrono::nanoseconds time = shifted(tick->time);
       tick->deadline += time - tick->time;
@@ -114,7 +115,10 @@ class McapLog {
     } else if (auto state = devices::haptic_state_of(event)) {
       state->time = shifted(state->time);
       add(*state);
+    } else {
+      return event.channel != "HAPTIC_TICK" && event.channel != "HAPTIC_STATE";
     }
+    return true;
   }
 
   std::vector<McapTopic> close() {
@@ -205,8 +209,8 @@ std::vector<McapTopic> write_log_mcap(const std::string& log_path, const std::st
   while (const std::optional<devices::LogEvent> event = log.next()) {
     if (event->channel == kHapticSessionChannel) {
       mcap.begin_run(recorded_view(log_path, read_session(*event, log), scene_file));
-    } else {
-      mcap.add(*event);
+    } else if (!mcap.add(*event)) {
+      log.note_unreadable(*event);
     }
   }
   damage = log.damage();

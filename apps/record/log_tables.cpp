@@ -112,10 +112,18 @@ class Tables {
         hands_(folder, "hands.csv", columns_of_hand()),
         gloves_(folder, "gloves.csv", glove_columns()) {}
 
-  void add(const devices::LogEvent& event) {
-    if (const auto tick = haptics::consumed_by_tick(event)) return add(*tick);
-    if (const auto state = devices::haptic_state_of(event)) return add(*state);
-    if (const auto logged = devices::glove_state_of(event)) add(*logged, event.time);
+  /// Returns false for an event that should have a row and cannot be read.
+  bool add(const devices::LogEvent& event) {
+    if (const auto tick = haptics::consumed_by_tick(event)) {
+      add(*tick);
+    } else if (const auto state = devices::haptic_state_of(event)) {
+      add(*state);
+    } else if (const auto logged = devices::glove_state_of(event)) {
+      add(*logged, event.time);
+    } else {
+      return event.channel != "HAPTIC_TICK" && event.channel != "HAPTIC_STATE" && event.channel != "GLOVE_STATE";
+    }
+    return true;
   }
 
   std::vector<LogTable> close() {
@@ -202,8 +210,9 @@ std::vector<LogTable> write_log_tables(const std::string& log_path, const std::s
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot be created: " + error.message());
   Tables tables(folder);
-  while (const std::optional<devices::LogEvent> event = log.next())
-    tables.add(*event);
+  while (const std::optional<devices::LogEvent> event = log.next()) {
+    if (!tables.add(*event)) log.note_unreadable(*event);
+  }
   damage = log.damage();
   return tables.close();
 }

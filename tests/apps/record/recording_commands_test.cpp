@@ -221,6 +221,20 @@ TEST_F(RecordingCommands, TablesOfADamagedLogHoldWhatComesBefore) {
   EXPECT_GT(test_support::rows_of(read_text_file(tables + "/ticks.csv")).size(), 200U);
 }
 
+// The log itself is whole.
+TEST_F(RecordingCommands, TablesAndMcapLackAnEventWhoseBytesChangedAndSaySo) {
+  std::string flipped = bytes();
+  flipped[flipped.find("HAPTIC_TICK", flipped.size() / 2) + 200] ^= 1;
+  const std::string log = changed(flipped);
+  for (const auto& [command, output] : {std::pair("to-csv", "tables"), std::pair("to-mcap", "run.mcap")}) {
+    const test_support::ProgramResult result = test_support::glissade({"log", command, log, folder_.path(output)});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.standard_error, HasSubstr("changed.lcmlog: 1 event cannot be read"));
+    EXPECT_THAT(result.standard_error, testing::EndsWith(", on HAPTIC_TICK\n"));
+  }
+  EXPECT_EQ(test_support::rows_of(read_text_file(folder_.path("tables/ticks.csv"))).size(), 499U);
+}
+
 TEST_F(RecordingCommands, McapHasEveryTickAndTheScene) {
   const std::string mcap = folder_.path("run.mcap");
   const test_support::ProgramResult result = test_support::glissade({"log", "to-mcap", log_, mcap});
