@@ -1,6 +1,8 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <utility>
+#include <vector>
 
 #include <glissade/apps/progress.h>
 #include <glissade/apps/run/session_check.h>
@@ -21,6 +23,12 @@ struct StartingPart {
   Eigen::Isometry3d X_WV;
 };
 
+/// A body that a part touches or overlaps at its start, and the part's pose there.
+struct PlacedBody {
+  const haptics::ContactBody* body;
+  Eigen::Isometry3d X_BV;
+};
+
 /// Those in hands, then those that move on their own.
 std::vector<StartingPart> starting_parts(const HapticScene& scene) {
   std::vector<StartingPart> parts;
@@ -37,25 +45,28 @@ std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& s
                                                             const std::vector<StartingPart>& parts, std::size_t part) {
   const std::shared_ptr<const haptics::SlidingPart>& part_V = parts[part].part_V;
   collision::QueryWorkspace workspace;
-  double depth = 0.0;
-  Eigen::Vector3d away_V = Eigen::Vector3d::Zero();
-  bool touches = false;
+  std::vector<PlacedBody> touched;
   const auto look_at = [&](const haptics::ContactBody& body, const Eigen::Isometry3d& X_WB) {
     const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * parts[part].X_WV;
-    if (!collision::intersects(body.tree, part_V->tree, X_BV, workspace, kTouching_m)) return;
-    touches = true;
-    depth = std::max(depth, haptics::overlap_depth(body, *part_V, X_BV));
-    away_V += X_BV.linear().transpose() *
-              collision::find_way_out(body.tree, part_V->tree, X_BV, workspace, kDeeper_m).way_out_A;
+    if (collision::intersects(body.tree, part_V->tree, X_BV, workspace, kTouching_m)) touched.push_back({&body, X_BV});
   };
   for (const haptics::Obstacle& obstacle : scene.obstacles)
     look_at(*obstacle.body, obstacle.X_WO);
   for (std::size_t other = 0; other < part; ++other)
     look_at(*parts[other].part_V, parts[other].X_WV);
-  if (!touches) return {part_V, &part_V->tree.mesh()};
-  std::optional<geometry::TriangleMesh> inside = haptics::inset_mesh(*part_V, depth + kDeeper_m);
-  if (!inside) inside = geometry::transformed(part_V->tree.mesh(), Eigen::Isometry3d(Eigen::Translation3d(away_V)));
-  return std::make_shared<const geometry::TriangleMesh>(std::move(*inside));
+  if (touched.empty()) return {part_V, &part_V->tree.mesh()};
+  double depth = 0.0;
+  for (const PlacedBody& body : touched)
+    depth = std::max(depth, haptics::overlap_depth(*body.body, *part_V, body.X_BV));
+  std::optional<geometry::TriangleMesh> mesh = haptics::inset_mesh(*part_V, depth + kDeeper_m);
+  if (!mesh) {
+    Eigen::Vector3d away_V = Eigen::Vector3d::Zero();
+    for (const auto& [body, X_BV] : touched)
+      away_V += X_BV.linear().transpose() *
+                collision::find_way_out(body->tree, part_V->tree, X_BV, workspace, kDeeper_m).way_out_A;
+    mesh = geometry::transformed(part_V->tree.mesh(), Eigen::Isometry3d(Eigen::Translation3d(away_V)));
+  }
+  return std::make_shared<const geometry::TriangleMesh>(std::move(*mesh));
 }
 
 }  // namespace
