@@ -42,7 +42,7 @@ class MultiPartSliding::Cycle {
 
   void grasp(std::size_t number, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref) {
     step_finder_.give_up();  // the answer under way goes on with another cycle
-    if (part(number).grasp(X_WG, p_Vref)) step_finder_.rows().forget_forces();
+    part(number).grasp(X_WG, p_Vref);
     forecast_.forget();
     tell_reference(number);
   }
@@ -54,7 +54,6 @@ class MultiPartSliding::Cycle {
     forecast_.forget();
     part(number).p_Vref = part(number).part_V->p_Vref();
     tell_reference(number);
-    step_finder_.rows().forget_forces();
   }
 
   void place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB) {
@@ -215,7 +214,6 @@ class MultiPartSliding::Cycle {
 
   void leave_seats() {
     if (!starts_.leave_seats()) return;
-    step_finder_.rows().forget_forces();
     shared_.candidates.clear();
     measure_levers();
   }

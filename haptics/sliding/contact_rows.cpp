@@ -27,6 +27,10 @@ constexpr std::size_t kNearestAtOnce = 64;
 constexpr std::size_t kViolatedAtOnce = 64;
 constexpr std::size_t kNearestAhead = 256;
 
+/// In minimum clearances: the gap down to which parts may use the room where it is too narrow for their margins. A seat
+/// begins with 1.08 of them.
+constexpr double kLeastGap = 1.04;
+
 /// The pair as the other body sees it.
 UncertifiedPair swapped(const UncertifiedPair& pair) {
   return {{{pair.bodies.part, pair.bodies.obstacle}, pair.part_triangle, pair.obstacle_triangle}, -pair.n_W};
@@ -242,14 +246,23 @@ void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
   }
 }
 
-void ContactRows::allow_standing_still() {
+void ContactRows::use_room() {
   may_be_kept_ = false;
-  for (CoupledRow& row : rows_)
-    row.bound = std::min(row.bound, 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    const double room = is_of_failure_[i] ? 0.0 : contacts_[i].gap - least_gap(contacts_[i]);
+    rows_[i].bound = std::min(rows_[i].bound, -std::max(0.0, room));
+  }
+}
+
+double ContactRows::least_gap(const Contact& contact) const {
+  const ContactScene& scene = shared_.scene;
+  const auto mover = contact.rider < 0 ? static_cast<std::size_t>(contact.part)
+                                       : scene.first_rider() + static_cast<std::size_t>(contact.rider);
+  const auto [first, second] = std::minmax(contact.obstacle, static_cast<std::int32_t>(scene.body_of_mover(mover)));
+  return kLeastGap * scene.min_clearance(first, second);
 }
 
 void ContactRows::take_forces(std::span<const RowForce> forces) {
-  pushed_.clear();
   for (Contact& contact : contacts_) {
     contact.force = 0.0;
     contact.friction_W.setZero();
@@ -258,23 +271,6 @@ void ContactRows::take_forces(std::span<const RowForce> forces) {
     Contact& contact = contacts_[static_cast<std::size_t>(force.row)];
     contact.force = force.normal;
     contact.friction_W = force.across_W;
-    if (shared_.rules.friction.is_on()) pushed_.push_back(contact);
-  }
-}
-
-void ContactRows::recall_forces(std::vector<RowForce>& forces) const {
-  for (std::size_t i = 0; i < contacts_.size(); ++i) {
-    const Contact& contact = contacts_[i];
-    if (is_of_failure_[i] || rows_[i].bound == -kUnbounded) continue;  // two released parts
-    for (const Contact& before : pushed_) {
-      if (before.part != contact.part || before.rider != contact.rider || before.obstacle != contact.obstacle ||
-          before.kind != contact.kind || before.part_feature != contact.part_feature ||
-          before.obstacle_feature != contact.obstacle_feature) {
-        continue;
-      }
-      forces.push_back({static_cast<std::int32_t>(i), before.force, before.friction_W});
-      break;
-    }
   }
 }
 

@@ -46,10 +46,13 @@ class ContactRows {
   /// Adds rows for failed certificates: each keeps the part's triangle on its side of the plane that separated the
   /// pair.
   void add_failures(std::span<const UncertifiedPair> failures);
-  /// Demands no margin back, so that standing still is allowed.
-  void allow_standing_still();
+  /// Demands no margin back, and lets contacts close to little more than their minimum clearance: for places that are
+  /// too narrow for the margins. Standing still is allowed then.
+  void use_room();
 
   std::span<const CoupledRow> rows() const { return rows_; }
+  /// Whether a row comes from a failed certificate.
+  bool is_of_failure(std::size_t row) const { return is_of_failure_[row]; }
   /// The contacts with rows, one for each.
   std::span<const Contact> contacts() const { return contacts_; }
   /// The contacts with rows and, after them, those ahead; to be taken away. Rows of failed certificates are dropped
@@ -59,11 +62,6 @@ class ContactRows {
   /// Notes the forces of the step that is taken at the contacts. A row of a failed certificate that pushes becomes a
   /// contact too.
   void take_forces(std::span<const RowForce> forces);
-  /// Appends the forces of the last step, by row, where the same features still touch: the starting point of the
-  /// friction solver.
-  void recall_forces(std::vector<RowForce>& forces) const;
-  /// Forgets the forces of the last step.
-  void forget_forces() { pushed_.clear(); }
 
  private:
   /// On what contacts and rows depend, besides their reach.
@@ -83,6 +81,7 @@ class ContactRows {
   void find_beyond(WorkBudget& budget);
   void keep_contacts(const std::function<bool(std::size_t row)>& is_kept);
   void add_rows_of_ahead();
+  double least_gap(const Contact& contact) const;
   void add(const Contact& contact);
   void add(const Contact& contact, double bound, bool is_of_failure = false);
 
@@ -111,7 +110,6 @@ class ContactRows {
   std::vector<Contact> contacts_ahead_;  // without a row
   std::vector<Contact> all_contacts_;
   std::vector<CoupledRow> rows_;
-  std::vector<Contact> pushed_;  // the contacts that pushed in the last step; with friction only
 };
 
 }  // namespace glissade::haptics

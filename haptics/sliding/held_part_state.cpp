@@ -26,17 +26,15 @@ void HeldPartState::rest(SlidingState state) {
   result.cycles = 0;
 }
 
-bool HeldPartState::grasp(const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref_of_hold) {
+void HeldPartState::grasp(const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref_of_hold) {
   result.X_WG = X_WG;
-  const bool rests = !is_held() || metaphor != Metaphor::kForceFeedback;
-  if (rests) {
+  if (!is_held() || metaphor != Metaphor::kForceFeedback) {
     p_Vref = p_Vref_of_hold;
     rest(SlidingState::kFree);
   } else {
     move_reference(p_Vref_of_hold);
   }
   if (metaphor == Metaphor::kForceFeedback) offset = geometry::displacement_between(X_WG, result.X_WT, p_Vref);
-  return rests;
 }
 
 /// The lag about the new point is that which exerts the same wrench, so contacts hold the part where it is. Where that

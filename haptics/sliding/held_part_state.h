@@ -52,9 +52,9 @@ struct HeldPartState {
 
   /// Leaves the part where it is: its target is its own pose, so nothing pushes it.
   void rest(SlidingState state);
-  /// A hand takes hold, with the ghost at the rigid pose X_WG and the reference point at `p_Vref_of_hold`. Returns
-  /// whether the part rests; one already held by force feedback keeps the wrench on it.
-  bool grasp(const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref_of_hold);
+  /// A hand takes hold, with the ghost at the rigid pose X_WG and the reference point at `p_Vref_of_hold`. The part
+  /// rests then; one already held by force feedback keeps the wrench on it.
+  void grasp(const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref_of_hold);
 
   /// Begins a call.
   void begin_tick();

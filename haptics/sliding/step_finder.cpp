@@ -18,6 +18,7 @@ constexpr int kHalvings = 6;
 // Work of a projection, in the unit of `collision::WorkMeter`: rough. Steps take 0.4 ns a unit.
 constexpr std::int64_t kWorkOfProjection = 500;
 constexpr std::int64_t kWorkOfRow = 50;
+constexpr std::int64_t kWorkOfFriction = 150;  // of a row and a step of the friction solver
 
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 
@@ -59,6 +60,7 @@ std::array<double, kMaxParts> StepFinder::find_forces(WorkBudget& budget) {
   do {
     budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
     if (!project(wanted_)) return {};
+    budget.spend(work_of_friction());
     left = shorten();
   } while (rows_.find_violated(left, budget));
   std::array<double, kMaxParts> lengths{};
@@ -120,6 +122,7 @@ void StepFinder::try_projection(WorkBudget& budget) {
       end_trial(budget);
       return;
     }
+    budget.spend(work_of_friction());
     shortened = shorten();
     if (is_worth_another(shortened)) {
       budget.spend(work);
@@ -236,8 +239,9 @@ void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
     // free.
     if (is_certified && projections_ > 1 && step_.length < kNotWorthIt * shared_.largest_margin) {
       is_certified = false;
-      step_ = first_;
-      forces_ = first_forces_;
+      take_first();
+    } else if (!is_certified && step_.length < kNotWorthIt * shared_.largest_margin) {
+      take_first();
     }
   }
   if (is_certified) {
@@ -249,6 +253,12 @@ void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
     step_ = {.clipped = true};
     end_trial(budget);
   }
+}
+
+/// Goes back to the step of the first projection.
+void StepFinder::take_first() {
+  step_ = first_;
+  forces_ = first_forces_;
 }
 
 /// Shortens the parts whose pairs fail; the others go on.
@@ -347,28 +357,47 @@ void StepFinder::begin_certificate(const Displacements& displacements, WorkBudge
 bool StepFinder::project(const Displacements& wanted) {
   const std::span<const geometry::Displacement> of_parts = shared_.of_parts(wanted);
   CoupledProjection projection = solver_.project(of_parts, grips_, rows_.rows());
-  if (projection.status == ProjectionStatus::kInfeasible) {
-    // Not every contact can have its margin back.
-    rows_.allow_standing_still();
+  if (projection.status == ProjectionStatus::kInfeasible || costs_energy(projection)) {
+    // Not every contact can have its margin back, or only far from where the part is wanted.
+    rows_.use_room();
     projection = solver_.project(of_parts, grips_, rows_.rows());
   }
   forces_.clear();
   projected_.fill({});
   if (projection.status != ProjectionStatus::kSolved) return false;
   projected_ = projection.displacements;
-  const bool rubs = shared_.rules.friction.is_on() && projection.active_count > 0;
-  if (rubs) rows_.recall_forces(forces_);
-  if (forces_.empty()) set_forces(projection);
-  if (rubs) solve_friction(wanted);
+  set_forces(projection);
+  if (shared_.rules.friction.is_on() && !forces_.empty()) solve_friction(wanted);
   return true;
+}
+
+/// Whether the springs hold more energy after the projected displacements than the margins that they give back are
+/// worth.
+bool StepFinder::costs_energy(const CoupledProjection& projection) const {
+  if (projection.status != ProjectionStatus::kSolved) return false;
+  Displacements left;
+  for (std::size_t p = 0; p < shared_.count(); ++p) {
+    const geometry::Displacement& d = projection.displacements[p];
+    if (shared_.states[p].is_held()) left[p] = {wanted_[p].v - d.v, wanted_[p].w - d.w};
+  }
+  return energy(shared_.states, left) >
+         energy(shared_.states, wanted_) + energy_allowance(shared_.states, wanted_, shared_.largest_margin);
 }
 
 void StepFinder::solve_friction(const Displacements& wanted) {
   const Friction& friction = shared_.rules.friction;
   coefficients_.clear();
-  for (const CoupledRow& row : rows_.rows())
-    coefficients_.push_back(slipped(row) ? friction.sliding : friction.at_rest);
+  for (std::size_t i = 0; i < rows_.rows().size(); ++i) {
+    const bool rubs = !rows_.is_of_failure(i);  // the others are no contacts
+    coefficients_.push_back(!rubs ? 0.0 : slipped(rows_.rows()[i]) ? friction.sliding : friction.at_rest);
+  }
   friction_solver_.solve(shared_.of_parts(wanted), grips_, rows_.rows(), coefficients_, projected_, forces_);
+}
+
+/// Of the last projection.
+std::int64_t StepFinder::work_of_friction() const {
+  if (!shared_.rules.friction.is_on() || forces_.empty()) return 0;
+  return kWorkOfFriction * friction_solver_.steps() * std::ssize(rows_.rows());
 }
 
 /// Whether the two sides slid past each other in the last call; their common motion does not count.

@@ -57,6 +57,7 @@ class StepFinder {
   void begin_trial(WorkBudget& budget);
   void try_projection(WorkBudget& budget);
   void conclude(bool is_certified, WorkBudget& budget);
+  void take_first();
   void try_half(WorkBudget& budget);
   void end_trial(WorkBudget& budget);
   void note_arrivals();
@@ -66,6 +67,8 @@ class StepFinder {
   bool project_again();
   void set_forces(const CoupledProjection& projection);
   Displacements shorten();
+  bool costs_energy(const CoupledProjection& projection) const;
+  std::int64_t work_of_friction() const;
   void solve_friction(const Displacements& wanted);
   bool slipped(const CoupledRow& row) const;
   void keep_covered(Displacements& displacements);

@@ -10,18 +10,57 @@
 namespace glissade::haptics {
 namespace {
 
-constexpr int kMostSweeps = 500;
-constexpr int kMostExtensions = 8;
-constexpr double kSettled = 1e-10;  // of the wanted displacement
+constexpr double kSettled = 1e-8;  // of the wanted displacement
+constexpr int kMostUpdates = 50;
+constexpr int kMostHalvings = 10;
+constexpr double kEnoughDescent = 0.1;  // of that which a step promises
+
+/// Stiffness of contacts, in multiples of that of the hold at the contact: it grows tenfold with each update. The
+/// forces make up for what the last one lacks.
+constexpr double kFirstPenalty = 1e2;
+constexpr double kLastPenalty = 1e5;
+
+/// A displacement in the metric of K, and back. A part of infinite stiffness stands still.
+Eigen::Matrix<double, 6, 1> whitened(const geometry::Displacement& d, const CouplingStiffness& k) {
+  Eigen::Matrix<double, 6, 1> y = Eigen::Matrix<double, 6, 1>::Zero();
+  if (std::isfinite(k.translational)) y << std::sqrt(k.translational) * d.v, std::sqrt(k.rotational) * d.w;
+  return y;
+}
+
+geometry::Displacement displacement(const Eigen::Matrix<double, 6, 1>& y, const CouplingStiffness& k) {
+  return {y.head<3>() / std::sqrt(k.translational), y.tail<3>() / std::sqrt(k.rotational)};
+}
 
 /// The directions n, t, t' at a point, as whitened displacements of a part.
 Eigen::Matrix<double, 6, 3> whitened(const Eigen::Matrix3d& directions_W, const Eigen::Vector3d& r,
-                                     const CouplingStiffness& stiffness) {
+                                     const CouplingStiffness& k) {
   Eigen::Matrix<double, 6, 3> J;
-  J.topRows<3>() = directions_W / std::sqrt(stiffness.translational);
-  for (int k = 0; k < 3; ++k)
-    J.col(k).tail<3>() = r.cross(directions_W.col(k)) / std::sqrt(stiffness.rotational);
+  J.topRows<3>() = directions_W / std::sqrt(k.translational);
+  for (int i = 0; i < 3; ++i)
+    J.col(i).tail<3>() = r.cross(directions_W.col(i)) / std::sqrt(k.rotational);
   return J;
+}
+
+/// The nearest force in Coulomb's cone.
+struct ForceInCone {
+  Eigen::Vector3d force = Eigen::Vector3d::Zero();  // along the normal and the tangents
+  Eigen::Matrix3d derivative = Eigen::Matrix3d::Zero();
+};
+
+ForceInCone within_cone(const Eigen::Vector3d& force, double coefficient) {
+  const double normal = force.x();
+  const double across = force.tail<2>().norm();
+  if (across <= coefficient * normal) return {force, Eigen::Matrix3d::Identity()};
+  if (coefficient * across <= -normal) return {};
+  const Eigen::Vector2d direction = force.tail<2>() / across;
+  Eigen::Vector3d edge;  // of the cone, towards the force
+  edge << 1.0, coefficient * direction;
+  const double share = 1.0 / edge.squaredNorm();
+  const double nearest = share * edge.dot(force);
+  ForceInCone in_cone{nearest * edge, share * edge * edge.transpose()};
+  in_cone.derivative.bottomRightCorner<2, 2>() +=
+      coefficient * nearest / across * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+  return in_cone;
 }
 
 }  // namespace
@@ -32,123 +71,134 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
                            std::vector<RowForce>& forces) {
   GLISSADE_ASSERT(coefficients.size() == rows.size() && stiffness.size() == wanted.size());
   prepare(stiffness, rows, coefficients);
-  double size = 0.0;
+  Vector y(6 * std::ssize(wanted));
+  y_wanted_.resize(y.size());
   for (std::size_t p = 0; p < wanted.size(); ++p) {
-    y_[p].setZero();
-    if (!std::isfinite(stiffness[p].translational)) continue;
-    y_[p] << std::sqrt(stiffness[p].translational) * wanted[p].v, std::sqrt(stiffness[p].rotational) * wanted[p].w;
-    size = std::max(size, y_[p].norm());
+    const auto first = static_cast<Eigen::Index>(6 * p);
+    y_wanted_.segment<6>(first) = whitened(wanted[p], stiffness[p]);
+    y.segment<6>(first) = whitened(displacements[p], stiffness[p]);
   }
-  for (const RowForce& force : forces) {
-    Row& row = rows_[static_cast<std::size_t>(force.row)];
-    row.force_contact << force.normal, row.tangents_W.transpose() * force.across_W;
-    row.in_working_set = true;
-    push(row, row.force_contact);
-  }
-  for (int extension = 0; extension < kMostExtensions; ++extension) {
-    for (int i = 0; i < kMostSweeps; ++i) {
-      if (sweep() <= kSettled * size) break;
-    }
-    if (!extend_working_set(kSettled * size)) break;
+  const double tolerance = kSettled * y_wanted_.norm();
+  penalty_ = kFirstPenalty;
+  steps_ = 0;
+  for (int i = 0; i < kMostUpdates && steps_ < kMostSteps; ++i) {
+    find_balance(y, tolerance);
+    if (update_forces(y) <= tolerance) break;
+    penalty_ = std::min(10.0 * penalty_, kLastPenalty);
   }
 
-  for (std::size_t p = 0; p < wanted.size(); ++p) {
-    displacements[p] = {y_[p].head<3>() / std::sqrt(stiffness[p].translational),
-                        y_[p].tail<3>() / std::sqrt(stiffness[p].rotational)};
-  }
+  for (std::size_t p = 0; p < wanted.size(); ++p)
+    displacements[p] = displacement(y.segment<6>(static_cast<Eigen::Index>(6 * p)), stiffness[p]);
   forces.clear();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const Row& row = rows_[i];
-    if (!(row.force_contact.x() > 0.0)) continue;
-    forces.push_back(
-        {static_cast<std::int32_t>(i), row.force_contact.x(), row.tangents_W * row.force_contact.tail<2>()});
+  for (const Row& row : rows_) {
+    if (row.force_contact.x() <= 0.0) continue;
+    forces.push_back({row.number, row.force_contact.x(), row.tangents_W * row.force_contact.tail<2>()});
   }
 }
 
 void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
                              std::span<const double> coefficients) {
-  rows_.resize(rows.size());
+  rows_.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CoupledRow& given = rows[i];
-    Row& row = rows_[i];
+    if (!std::isfinite(given.bound)) continue;
     Eigen::Matrix3d directions_W;
     directions_W.col(0) = given.n;
     directions_W.col(1) = given.n.unitOrthogonal();
     directions_W.col(2) = given.n.cross(directions_W.col(1));
-    row.part = given.part;
-    row.other = given.other;
+    Row& row = rows_.emplace_back();
+    row.number = static_cast<std::int32_t>(i);
+    row.part = 6 * given.part;
+    row.other = given.other < 0 ? -1 : 6 * given.other;
     row.J_part = whitened(directions_W, given.r, stiffness[static_cast<std::size_t>(given.part)]);
     row.J_other.setZero();
     if (given.other >= 0) {
       row.J_other = -whitened(directions_W, given.r_other, stiffness[static_cast<std::size_t>(given.other)]);
     }
-    const Eigen::Matrix3d response = row.J_part.transpose() * row.J_part + row.J_other.transpose() * row.J_other;
     row.bound = given.bound;
     row.coefficient = coefficients[i];
-    row.normal_response = response(0, 0);
-    row.response = response.bottomRightCorner<2, 2>();
-    row.inverse_response = row.response.inverse();
-    const double mean = 0.5 * row.response.trace();
-    row.largest_response = mean + std::sqrt(std::max(0.0, mean * mean - row.response.determinant()));
-    row.force_contact.setZero();
+    row.response = (row.J_part.squaredNorm() + row.J_other.squaredNorm()) / 3.0;
     row.tangents_W = directions_W.rightCols<2>();
-    row.in_working_set = false;
   }
 }
 
-/// Relaxes every row of the working set once. Returns the largest change of the displacements, in the metric of K.
-double FrictionSolver::sweep() {
+/// Newton's method for the displacements at which springs and stiff contacts are in balance.
+void FrictionSolver::find_balance(Vector& y, double tolerance) {
+  while (steps_ < kMostSteps) {
+    const Balance balance = balance_at(y);
+    ++steps_;
+    const double excess = balance.excess.norm();
+    if (excess <= tolerance) return;
+    const Vector way = -balance.derivative.partialPivLu().solve(balance.excess);
+    if (!way.allFinite()) return;
+    double fraction = 1.0;
+    const auto is_enough = [&] {
+      return excess_at(y + fraction * way).norm() <= (1.0 - kEnoughDescent * fraction) * excess;
+    };
+    for (int i = 0; i < kMostHalvings && !is_enough(); ++i)
+      fraction *= 0.5;
+    y += fraction * way;
+  }
+}
+
+Eigen::Vector3d FrictionSolver::Row::motion(const Vector& y) const {
+  Eigen::Vector3d u = J_part.transpose() * y.segment<6>(part);
+  if (other >= 0) u += J_other.transpose() * y.segment<6>(other);
+  return u;
+}
+
+/// The force of a contact that is stiff instead of rigid, before it is brought into the cone.
+Eigen::Vector3d FrictionSolver::stiff_force(const Row& row, const Eigen::Vector3d& motion) const {
+  Eigen::Vector3d too_far = motion;
+  too_far.x() += row.coefficient * motion.tail<2>().norm() - row.bound;
+  return row.force_contact - stiffness_of(row) * too_far;
+}
+
+FrictionSolver::Vector FrictionSolver::excess_at(const Vector& y) const {
+  Vector excess = y - y_wanted_;
+  for (const Row& row : rows_) {
+    const Eigen::Vector3d force = within_cone(stiff_force(row, row.motion(y)), row.coefficient).force;
+    excess.segment<6>(row.part) -= row.J_part * force;
+    if (row.other >= 0) excess.segment<6>(row.other) -= row.J_other * force;
+  }
+  return excess;
+}
+
+FrictionSolver::Balance FrictionSolver::balance_at(const Vector& y) const {
+  Balance balance{y - y_wanted_, Matrix::Identity(y.size(), y.size())};
+  const auto add = [&](Eigen::Index a, const Jacobian& J_a, const Eigen::Matrix3d& stiffness, Eigen::Index b,
+                       const Jacobian& J_b) {
+    balance.derivative.block<6, 6>(a, b) += J_a * stiffness * J_b.transpose();
+  };
+  for (const Row& row : rows_) {
+    const Eigen::Vector3d motion = row.motion(y);
+    const ForceInCone in_cone = within_cone(stiff_force(row, motion), row.coefficient);
+    if (in_cone.force.isZero(0.0)) continue;
+    Eigen::Matrix3d stiffness = stiffness_of(row) * in_cone.derivative;
+    const double slip = motion.tail<2>().norm();
+    if (slip > 0.0)
+      stiffness.rightCols<2>() += row.coefficient / slip * stiffness.col(0) * motion.tail<2>().transpose();
+    balance.excess.segment<6>(row.part) -= row.J_part * in_cone.force;
+    add(row.part, row.J_part, stiffness, row.part, row.J_part);
+    if (row.other < 0) continue;
+    balance.excess.segment<6>(row.other) -= row.J_other * in_cone.force;
+    add(row.other, row.J_other, stiffness, row.other, row.J_other);
+    add(row.part, row.J_part, stiffness, row.other, row.J_other);
+    add(row.other, row.J_other, stiffness, row.part, row.J_part);
+  }
+  return balance;
+}
+
+/// Takes the forces of these displacements. Returns by how much the motion of a contact may still change, in the metric
+/// of K.
+double FrictionSolver::update_forces(const Vector& y) {
   double change = 0.0;
   for (Row& row : rows_) {
-    if (row.in_working_set) change = std::max(change, relax(row));
+    const Eigen::Vector3d force = within_cone(stiff_force(row, row.motion(y)), row.coefficient).force;
+    change = std::max(change, (force - row.force_contact).norm() / stiffness_of(row) / std::sqrt(row.response));
+    row.force_contact = force;
   }
   return change;
-}
-
-/// Makes one contact consistent with the present forces of the others. Returns the change of the displacements, in the
-/// metric of K.
-double FrictionSolver::relax(Row& row) {
-  const auto motion = [&]() -> Eigen::Vector3d {
-    Eigen::Vector3d u = row.J_part.transpose() * y_[static_cast<std::size_t>(row.part)];
-    if (row.other >= 0) u += row.J_other.transpose() * y_[static_cast<std::size_t>(row.other)];
-    return u;
-  };
-  Eigen::Vector3d change = Eigen::Vector3d::Zero();
-  const double normal = row.force_contact.x();
-  change.x() = std::max(0.0, normal - (motion().x() - row.bound) / row.normal_response) - normal;
-  push(row, change);
-
-  const Eigen::Vector2d across = row.force_contact.tail<2>();
-  const double most = row.coefficient * (normal + change.x());
-  const Eigen::Vector2d slip = motion().tail<2>();
-  Eigen::Vector2d held = across - row.inverse_response * slip;
-  if (held.norm() > most) {
-    held = across - slip / row.largest_response;
-    if (held.norm() > most) held *= most / held.norm();
-  }
-  const Eigen::Vector3d change_across(0.0, held.x() - across.x(), held.y() - across.y());
-  push(row, change_across);
-  row.force_contact += change + change_across;
-  return std::sqrt(change.x() * change.x() * row.normal_response + change_across.squaredNorm() * row.largest_response);
-}
-
-/// Adds violated rows to the working set. Returns whether there were any.
-bool FrictionSolver::extend_working_set(double tolerance) {
-  bool found = false;
-  for (Row& row : rows_) {
-    if (row.in_working_set) continue;
-    double motion = row.J_part.col(0).dot(y_[static_cast<std::size_t>(row.part)]);
-    if (row.other >= 0) motion += row.J_other.col(0).dot(y_[static_cast<std::size_t>(row.other)]);
-    if (motion - row.bound >= -tolerance * std::sqrt(row.normal_response)) continue;
-    row.in_working_set = true;
-    found = true;
-  }
-  return found;
-}
-
-void FrictionSolver::push(const Row& row, const Eigen::Vector3d& force_contact) {
-  y_[static_cast<std::size_t>(row.part)] += row.J_part * force_contact;
-  if (row.other >= 0) y_[static_cast<std::size_t>(row.other)] += row.J_other * force_contact;
 }
 
 }  // namespace glissade::haptics

@@ -4,6 +4,7 @@
 /// coefficient of friction times the normal force.
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -25,47 +26,70 @@ struct RowForce {
 /// The quasi-static step with friction: the displacement ξ with
 ///   K (ξ − ξ*) = Σ λ_i (n_i, r_i × n_i) + Σ (f_i, r_i × f_i), λ_i ≥ 0, λ_i ⟂ (row i − bound),
 ///   |f_i| ≤ μ λ_i, and where the contact slips, f_i is μ λ_i against the slip of this step.
-/// Solved by block Gauss–Seidel over the contacts, with the friction disc itself instead of a pyramid. The normal
-/// forces of redundant contacts, such as four feet on a floor, are not unique; their sum is.
+/// Solved by the augmented Lagrangian and Newton's method of Alart & Curnier (1991), with the cone of De Saxcé: a
+/// contact that slips may rise by μ |slip|, so that its force lies in Coulomb's cone and its motion in the dual one.
+/// Contacts are first stiff instead of rigid, so that their forces are functions of the displacement; Newton's method
+/// with a line search balances them with the springs, in six unknowns a part. Then the forces found are taken for
+/// granted, and stiff contacts add what is missing, until nothing is.
+///
+/// The forces of redundant contacts, such as four feet on a floor, are not unique, but all contacts are equally stiff
+/// here and begin without forces. So the feet share the load, and a part that fits exactly is not pressed into its
+/// seat: forces that only press against each other would hold it by friction for good.
 /// Deterministic; reuses its memory. Not thread-safe.
 class FrictionSolver {
  public:
-  /// `coefficients` has one entry for each row. Replaces `displacements` and `forces` by the solution. On entry
-  /// `forces` has the starting point: the forces of the last step, or else those of the frictionless programme. From a
-  /// poor starting point a sticking part would creep in every step by the error that the sweeps leave. Cost O(rows),
-  /// plus up to some hundred sweeps over the contacts that push.
+  /// `coefficients` has one entry for each row. On entry, `displacements` is the projection without friction, from
+  /// which Newton's method begins: where friction would hold a part in motion as well as one at rest, it goes on
+  /// moving. Replaces it, and `forces`, by the solution. Cost O(rows) a step of Newton's method: some ten to some
+  /// hundred, at most kMostSteps.
   void solve(std::span<const geometry::Displacement> wanted, std::span<const CouplingStiffness> stiffness,
              std::span<const CoupledRow> rows, std::span<const double> coefficients,
              std::array<geometry::Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces);
 
+  static constexpr int kMostSteps = 500;
+  /// Steps of the last solution.
+  int steps() const { return steps_; }
+
  private:
+  static constexpr int kMostDof = 6 * static_cast<int>(kMaxParts);
+  using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostDof, 1>;  // whitened, six coordinates a part
+  using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostDof, kMostDof>;
   using Jacobian = Eigen::Matrix<double, 6, 3>;  // columns: normal and two tangents, whitened
 
   struct Row {
-    std::int32_t part;
-    std::int32_t other;
+    std::int32_t number;
+    Eigen::Index part;   // its first coordinate
+    Eigen::Index other;  // likewise; −1: an obstacle
     Jacobian J_part;
     Jacobian J_other;
     double bound;
     double coefficient;
-    double normal_response;            // motion along the normal for a force of 1 N
-    Eigen::Matrix2d response;          // the same across the normal
-    Eigen::Matrix2d inverse_response;  // its inverse
-    double largest_response;           // its largest eigenvalue
-    Eigen::Vector3d force_contact;     // N: along the normal and the tangents
+    double response;                               // motion for a force of 1 N, the mean of three directions
+    Eigen::Vector3d force_contact{0.0, 0.0, 0.0};  // N: along the normal and the tangents
     Eigen::Matrix<double, 3, 2> tangents_W;
-    bool in_working_set;  // pushes, or has been violated
+
+    Eigen::Vector3d motion(const Vector& y) const;
+  };
+
+  /// How far springs and stiff contacts are from balance at some displacements.
+  struct Balance {
+    Vector excess;
+    Matrix derivative;
   };
 
   void prepare(std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
                std::span<const double> coefficients);
-  double sweep();
-  double relax(Row& row);
-  bool extend_working_set(double tolerance);
-  void push(const Row& row, const Eigen::Vector3d& force_contact);
+  void find_balance(Vector& y, double tolerance);
+  double stiffness_of(const Row& row) const { return penalty_ / row.response; }
+  Eigen::Vector3d stiff_force(const Row& row, const Eigen::Vector3d& motion) const;
+  Vector excess_at(const Vector& y) const;
+  Balance balance_at(const Vector& y) const;
+  double update_forces(const Vector& y);
 
   std::vector<Row> rows_;
-  std::array<geometry::Vector6d, kMaxParts> y_;  // whitened displacements
+  Vector y_wanted_;
+  double penalty_ = 0.0;
+  int steps_ = 0;
 };
 
 }  // namespace glissade::haptics

@@ -14,6 +14,7 @@
 
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/triangle_mesh.h>
+#include <glissade/haptics/coupling.h>
 #include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/sliding.h>
 #include <glissade/reference/grid_check.h>
@@ -43,25 +44,47 @@ constexpr double kHandStep = 0.5e-3;  // of the hand in a millisecond
 /// A fit somewhere in space, whose part is in the hand. A call is one cycle, so its way is one step.
 class FlushFit {
  public:
-  FlushFit(const NominalFit& fit, const Isometry3d& X_WA, double overlap = 0.0, OverlapRule rule = OverlapRule::kRefuse)
+  FlushFit(const NominalFit& fit, const Isometry3d& X_WA, double overlap = 0.0, OverlapRule rule = OverlapRule::kRefuse,
+           double friction = 0.0)
       : X_WA_(X_WA),
         smaller_(fit.part(kDeeper * kMarginOfFits)),
         sliding_(obstacles(fit, X_WA), part_of(fit.part(-overlap)), X_WA,
-                 {.rules = {.max_cycles = 1, .margin = kMarginOfFits, .overlap = rule}}),
+                 {.rules = {.max_cycles = 1,
+                            .margin = kMarginOfFits,
+                            .friction = {.at_rest = friction, .sliding = friction},
+                            .overlap = rule}}),
         check_(placed(fit, X_WA)) {}
 
   const Isometry3d& X_WV() const { return sliding_.result().X_WV; }
   const SlidingResult& result() const { return sliding_.result(); }
+
+  /// Newtons, of the contacts on the part.
+  struct Forces {
+    double pressed = 0.0;  ///< sum of the normal forces
+    Vector3d sum_W = Vector3d::Zero();
+    double friction = 0.0;  ///< sum of the friction forces, each by its size
+  };
+  Forces forces() const {
+    Forces forces;
+    for (const Contact& contact : result().contacts) {
+      forces.pressed += contact.force;
+      forces.friction += contact.friction_W.norm();
+      forces.sum_W += contact.force * contact.n_W + contact.friction_W;
+    }
+    return forces;
+  }
+  /// Newtons, of the part on the hand.
+  Vector3d spring_W() const { return spring_wrench(sliding_.stiffness(), sliding_.error()).f; }
   /// Where the part is, seen from its place in the assembly.
   Vector3d moved_A() const { return X_WA_.inverse() * X_WV().translation(); }
 
-  /// The hand goes there, by a translation and a rotation vector in the assembly.
-  void lead(const Vector3d& to_A, const Vector3d& turn_A = Vector3d::Zero()) {
+  /// The hand goes there, by a translation and a rotation vector in the assembly, and stays for a while.
+  void lead(const Vector3d& to_A, const Vector3d& turn_A = Vector3d::Zero(), int stays = 50) {
     const int ticks = std::max(20, static_cast<int>((to_A - ghost_A_).norm() / kHandStep));
     const Vector3d from_A = std::exchange(ghost_A_, to_A);
     for (int i = 1; i <= ticks; ++i)
       tick(from_A + (to_A - from_A) * i / ticks, turn_A * i / ticks);
-    for (int i = 0; i < 50; ++i)
+    for (int i = 0; i < stays; ++i)
       tick(to_A, turn_A);
   }
 
@@ -136,6 +159,25 @@ TEST_P(FlushFits, ComeOutOfAHandThatPullsAskew) {
   }
 }
 
+// A hand that also pulls aside tilts the part, and its ends are pressed the harder the less of it is left inside: the
+// friction of the last tenths of a millimetre may hold it, as that of a drawer does.
+TEST_P(FlushFits, ComeOutAgainstFrictionOrAreHeldByIt) {
+  for (const double friction : {0.1, 0.4}) {
+    FlushFit flush(fit(), somewhere(300 + GetParam()).back(), 0.0, OverlapRule::kRefuse, friction);
+    const Vector3d askew = fit().way_out + 1e-3 * fit().blocked.front();
+    flush.lead(askew);
+    flush.lead(askew, Vector3d::Zero(), 200);
+    const FlushFit::Forces forces = flush.forces();
+    const Vector3d spring_W = flush.spring_W();
+    EXPECT_LT((forces.sum_W - spring_W).norm(), 0.02 * spring_W.norm() + 1e-9) << fit().name << ", " << friction;
+    EXPECT_LE(forces.friction, 1.001 * friction * forces.pressed) << fit().name;
+    if ((flush.moved_A() - askew).norm() > 2e-3) {
+      EXPECT_GT(forces.friction, 0.8 * friction * forces.pressed) << fit().name << ": not pressed more than needed";
+    }
+    EXPECT_EQ(flush.collisions(), 0) << fit().name;
+  }
+}
+
 TEST_P(FlushFits, AreBlockedInOtherDirections) {
   for (const Isometry3d& X_WA : somewhere(200 + GetParam())) {
     for (const Vector3d& blocked : fit().blocked) {
@@ -157,6 +199,23 @@ TEST(FlushFits, AreAllTested) {
 const NominalFit& fit_of(const std::string& name) {
   return *std::find_if(nominal_fits().begin(), nominal_fits().end(),
                        [&](const NominalFit& fit) { return fit.name == name; });
+}
+
+// Statics: a force across the peg, in the middle of it, is held at the rim of the sleeve and at the end of the peg.
+TEST(FlushFit, FrictionIsThatOfTheForcesWhichHoldAPullAside) {
+  constexpr double kFriction = 0.2;
+  constexpr double kAside = 0.5e-3;
+  FlushFit flush(fit_of("peg in its sleeve"), Isometry3d::Identity(), 0.0, OverlapRule::kRefuse, kFriction);
+  flush.lead({kAside, 0.0, 0.035});
+  const double z = flush.moved_A().z();
+  const double inside = 0.04 - z;
+  const double outside = z + 0.03 - 0.04;  // from the rim to the middle
+  const double pull = -flush.spring_W().x();
+  const FlushFit::Forces forces = flush.forces();
+  EXPECT_NEAR(forces.pressed, pull * (2.0 * outside + inside) / inside, 0.1 * forces.pressed);
+  EXPECT_NEAR(-forces.sum_W.x(), pull, 0.01 * pull);
+  EXPECT_LT(z, 0.0345) << "friction holds it back";
+  EXPECT_NEAR(-forces.sum_W.z(), 1e3 * (0.035 - z), 0.01 * forces.friction);
 }
 
 TEST(FlushFit, OpensToTheMarginWhereThereIsRoom) {
