@@ -39,6 +39,7 @@ int parse_and_run(int argc, char** argv) {
   app.footer(kFooter);
   app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
   app.set_help_flag("-h,--help", "Print this help and exit");
+  app.formatter(help_formatter());
   app.require_subcommand(0, 1);  // a missing command gets a message of our own below
   Command chosen;
   add_demo_command(app, chosen);
@@ -63,9 +64,10 @@ int parse_and_run(int argc, char** argv) {
   } catch (const CLI::Success& request) {
     return app.exit(request);  // --help and --version
   } catch (const CLI::ParseError& error) {
-    const std::string unexpected = unexpected_arguments(app);
-    if (unexpected.empty()) check_numbers(app);  // says more than the parser of a text that is no number
-    return fail(kBadInput, unexpected.empty() ? error.what() : unexpected);
+    std::string sentence = unexpected_arguments(app);
+    if (sentence.empty()) check_numbers(app);  // says more than the parser of a text that is no number
+    if (sentence.empty()) sentence = wrong_count(app, error);
+    return fail(kBadInput, sentence.empty() ? error.what() : sentence);
   }
   if (!chosen) return fail(kBadInput, "a command is missing: see glissade help");
   check_numbers(app);

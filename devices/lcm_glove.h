@@ -15,6 +15,8 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
+#include <string>
 #include <vector>
 
 #include <glissade/devices/glove_device.h>
@@ -43,13 +45,19 @@ class GloveSearch {
   std::optional<GloveInfo> wait_for(std::int64_t device, std::chrono::milliseconds timeout);
   /// The numbers of all gloves that were heard so far, in rising order.
   std::vector<std::int64_t> heard() const;
+  /// What was heard so far and does not lead to a glove, in sentences: announcements and states that are refused, and
+  /// gloves that send states but do not announce themselves.
+  std::vector<std::string> troubles() const;
 
  private:
   std::shared_ptr<LcmBus> bus_;
   mutable std::mutex mutex_;
   std::condition_variable has_come_;
   std::map<std::int64_t, GloveInfo> found_;
-  std::unique_ptr<LcmBus::Subscription> subscription_;
+  std::set<std::int64_t> senders_;  // of states
+  std::set<std::string> refusals_;  // sentences
+  std::unique_ptr<LcmBus::Subscription> infos_;
+  std::unique_ptr<LcmBus::Subscription> states_;
 };
 
 struct LcmGloveOptions {

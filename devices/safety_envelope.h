@@ -23,7 +23,8 @@ class SafeCommand {
   /// Sequences, times, forces and torques.
   const GloveCommand& values() const noexcept { return values_; }
   const LimitReasons& reasons() const noexcept { return reasons_; }
-  /// Time since the measurement of the state that the command answers.
+  /// Time since the measurement of the state that the command answers. If the glove's newest state is old itself, time
+  /// since the measurement of that one.
   std::chrono::nanoseconds age() const noexcept { return age_; }
   /// Energy (J) that force and torque may still give to the hand: `SafetyEnvelope`.
   double energy() const noexcept { return energy_; }

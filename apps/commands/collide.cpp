@@ -156,7 +156,7 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
       ->capture_default_str();
   command->add_option("--method", options->method, "Search with DOP-trees, or test all pairs of triangles as a check")
-      ->check(CLI::IsMember(collide_method_names()))
+      ->check(one_of(collide_method_names()))
       ->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();
   command->add_flag("--cache", options->cache, kCacheHelp);

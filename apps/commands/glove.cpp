@@ -20,6 +20,7 @@
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/spsc_ring.h>
@@ -172,7 +173,7 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("glove", kGloveDescription);
   command->footer(kGloveFooter);
   command->add_option("--side", options->side, "Hand that wears the glove")
-      ->check(CLI::IsMember({"left", "right"}))
+      ->check(one_of({"left", "right"}))
       ->capture_default_str();
   add_device_option(*command, options->device);
   add_lcm_options(*command, options->lcm);

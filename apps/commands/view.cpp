@@ -21,6 +21,7 @@
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/apps/view/viewed_parts.h>
 #include <glissade/devices/event_log.h>
@@ -134,7 +135,7 @@ void add_view_command(CLI::App& app, Command& chosen) {
       ->type_name("PORT")
       ->default_str(std::to_string(kViewPort));
   command->add_option("--seconds", options->seconds, "Duration in seconds; 0: until Ctrl-C")
-      ->check(CLI::Range(0.0, 86400.0))
+      ->check(not_negative())
       ->capture_default_str();
   command->add_option("--device", options->devices, "Numbers of the server's gloves, in its order")
       ->check(glove_number())

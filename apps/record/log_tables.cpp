@@ -13,6 +13,7 @@
 #include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/log_tables.h>
 #include <glissade/apps/run/force_reason.h>
+#include <glissade/apps/say.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
@@ -38,7 +39,10 @@ class Table {
   }
 
   void close(std::vector<LogTable>& tables) {
-    if (!writer_) return;
+    if (!writer_) {
+      if (std::filesystem::exists(path_)) warn(path_ + " is of another log: this one has nothing for it");
+      return;
+    }
     writer_->close();
     tables.push_back({path_, rows_});
   }

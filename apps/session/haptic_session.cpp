@@ -115,9 +115,11 @@ std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::L
       infos.push_back(std::move(*info));
       turns = 0;
     } else if (++turns >= kPatientTurns && !has_told) {
-      const std::string silence = told_silence(device, hands, search);
-      has_told = !silence.empty();
-      if (has_told) watch({.sentences = {silence}});
+      std::vector<std::string> sentences = search.troubles();
+      if (std::string silence = told_silence(device, hands, search); !silence.empty())
+        sentences.push_back(std::move(silence));
+      has_told = !sentences.empty();
+      if (has_told) watch({.sentences = std::move(sentences)});
     }
   }
   return infos;

@@ -1,3 +1,4 @@
+#include <string>
 #include <utility>
 
 #include <glissade/devices/lcm_glove.h>
@@ -7,14 +8,51 @@
 
 namespace glissade::devices {
 
+namespace {
+
+std::string refusal(MessageError error) {
+  switch (error) {
+    case MessageError::kWrongSize:
+    case MessageError::kUndecodable:
+      return "they are not of the type that this program knows (lcmtypes/)";
+    case MessageError::kWrongVersion:
+      return "they have another version of the type";
+    case MessageError::kNotFinite:
+      return "a number is not finite";
+    default:
+      return "a number is out of its range";
+  }
+}
+
+std::string refused(const char* what, const char* channel, MessageError error) {
+  return std::string(what) + " on " + channel + " are refused: " + refusal(error);
+}
+
+}  // namespace
+
 GloveSearch::GloveSearch(std::shared_ptr<LcmBus> bus) : bus_(checked_bus(std::move(bus), "The search for a glove")) {
-  subscription_ = bus_->subscribe(kGloveInfoChannel, [this](std::span<const std::uint8_t> message) {
+  infos_ = bus_->subscribe(kGloveInfoChannel, [this](std::span<const std::uint8_t> message) {
     GloveInfo info;
-    if (decode(message, info) != MessageError::kNone) return;
+    const MessageError error = decode(message, info);
     const std::lock_guard lock(mutex_);
-    const std::int64_t device = info.device;
-    found_.insert_or_assign(device, std::move(info));
-    has_come_.notify_all();
+    if (error == MessageError::kNone) {
+      const std::int64_t device = info.device;
+      found_.insert_or_assign(device, std::move(info));
+      has_come_.notify_all();
+    } else {
+      refusals_.insert(refused("announcements", kGloveInfoChannel, error));
+    }
+  });
+  states_ = bus_->subscribe(kGloveStateChannel, [this](std::span<const std::uint8_t> message) {
+    StateHeader header;
+    GloveState state;
+    const MessageError error = decode(message, header, state);
+    const std::lock_guard lock(mutex_);
+    if (error == MessageError::kNone) {
+      senders_.insert(header.device);
+    } else {
+      refusals_.insert(refused("states", kGloveStateChannel, error));
+    }
   });
 }
 
@@ -31,6 +69,17 @@ std::vector<std::int64_t> GloveSearch::heard() const {
   for (const auto& [device, info] : found_)
     numbers.push_back(device);
   return numbers;
+}
+
+std::vector<std::string> GloveSearch::troubles() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> sentences(refusals_.begin(), refusals_.end());
+  for (const std::int64_t device : senders_) {
+    if (found_.contains(device)) continue;
+    sentences.push_back("glove " + std::to_string(device) + " sends states, but no announcement on " +
+                        kGloveInfoChannel + " that can be used");
+  }
+  return sentences;
 }
 
 }  // namespace glissade::devices

@@ -27,7 +27,7 @@ geometry::Displacement Push::displacement(double radius, double milliseconds) {
   double longest = 0.0;
   for (const ContactPlane& plane : planes_)
     longest = std::max(longest, -plane.room);
-  longest = std::min(longest, kFastest * fastest_m_per_ms_ * milliseconds);
+  longest = std::min(longest, kFastest * fastest_m_per_ms_ * std::min(milliseconds, kLongestPush_ms));
   if (longest == 0.0) return {};
   const geometry::Displacement d = slide_past({}, planes_, radius, forces_, kCompliance);
   return d.scaled(geometry::fraction_within(d, radius, longest));

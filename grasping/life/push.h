@@ -24,6 +24,9 @@ class Push {
   /// In speeds of the fastest segment that pushes: a part that comes free goes no faster, however deep the target lies.
   /// What the hand would need to go on waits.
   static constexpr double kFastest = 1.5;
+  /// Milliseconds: a call after a longer time pushes no farther. The other fingers, which have moved on meanwhile as
+  /// well, come to the part after this call, and may close round it before the next one.
+  static constexpr double kLongestPush_ms = 5.0;
   /// Metres a millisecond: hands as slow as this stand still.
   static constexpr double kStill_m_per_ms = 1e-6;
 
@@ -36,7 +39,7 @@ class Push {
   /// The shortest displacement of the part in so many milliseconds on which the targets of all hands lie no deeper than
   /// the part resists, to first order; where there is none, because they press from all sides, a balance. No point of
   /// the part, which has this radius about its reference point, moves farther than the deepest target lies, nor
-  /// kFastest times as fast as the fastest segment.
+  /// kFastest times as fast as the fastest segment, nor for longer than kLongestPush_ms.
   geometry::Displacement displacement(double radius, double milliseconds);
 
  private:

@@ -207,6 +207,12 @@ TEST_F(Cli, WrongUsageIsRefused) {
     expect_refused({"collide", mesh, mesh, "--poses", poses, "--tolerance-m", bad}, {"--tolerance-m", bad});
   }
   expect_refused({"collide", mesh, mesh, "--poses", poses, "--out", folder.path("no/out.csv")}, {"no/out.csv"});
+  expect_refused({"glove", "--side", "up"}, {"--side: 'up' is unknown; known are left, right\n"});
+  expect_refused({"glove", "--script"}, {"--script: a value is missing\n"});
+  expect_refused({"slide", mesh, "--part"}, {"--part: a value is missing\n"});
+  expect_refused({"slide", mesh, "--part", "a", "--part", "b"}, {"--part: takes one value, not 2\n"});
+  expect_refused({"slide", mesh, "--part", "a", "--friction", "1", "2", "3"},
+                 {"--friction: takes at most 2 values, not 3\n"});
 }
 
 TEST_F(Cli, FilesThatCannotBeReadAreRefused) {

@@ -29,6 +29,13 @@ TEST(Help, IsACommandToo) {
   expect_refused({"help", "slid"}, {"'slid' is not a command", "'slide'"});
 }
 
+// An option that takes several values would take SCENE for one of them.
+TEST(Help, HasArgumentsBeforeOptions) {
+  EXPECT_THAT(glissade({"help", "slide"}).standard_output, HasSubstr("Usage: glissade slide SCENE [OPTIONS]\n"));
+  EXPECT_THAT(glissade({"help", "log", "to-csv"}).standard_output,
+              HasSubstr("Usage: glissade log to-csv LOG FOLDER [OPTIONS]\n"));
+}
+
 TEST(Help, KnowsWhatWasMeant) {
   expect_refused({"inof"}, {"'inof' is not a command", "did you mean 'info'?", "glissade help"});
   expect_refused({"demo", "--ofline"}, {"--ofline is not an option of 'demo'", "did you mean '--offline'?"});

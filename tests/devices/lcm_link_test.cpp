@@ -7,6 +7,7 @@
 #include <thread>
 #include <vector>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <glissade/devices/haptic_state_publisher.h>
@@ -88,6 +89,28 @@ TEST(GloveInfo, IsHeardBetweenTwoCallsOfASearch) {
   host.publish({});  // an announcement; the next one is due 200 ms later
   EXPECT_FALSE(search.wait_for(4, milliseconds(100)).has_value());
   EXPECT_TRUE(search.wait_for(3, milliseconds(0)).has_value());
+}
+
+TEST(GloveInfo, ASearchTellsWhyAGloveIsNotFound) {
+  const auto bus = std::make_shared<LcmBus>("memq://");
+  GloveSearch search(bus);
+  EXPECT_THAT(search.troubles(), testing::IsEmpty());
+  bus->publish("GLOVE_STATE", encoded(good_state(1)));
+  Bytes of_another_version = encode(GloveInfo{1, 1, HandSide::kRight, simulated_glove_descriptor()});
+  of_another_version[11] ^= 1U;  // the version follows the eight bytes of the type
+  bus->publish("GLOVE_INFO", of_another_version);
+  DeviceDescriptor impossible = simulated_glove_descriptor();
+  impossible.max_force = kNan;
+  bus->publish("GLOVE_INFO", encode(GloveInfo{1, 1, HandSide::kRight, impossible}));
+  EXPECT_FALSE(search.wait_for(1, milliseconds(200)).has_value());
+  EXPECT_THAT(search.troubles(), testing::UnorderedElementsAre(
+                                     "announcements on GLOVE_INFO are refused: they have another version of the type",
+                                     "announcements on GLOVE_INFO are refused: a number is out of its range",
+                                     "glove 1 sends states, but no announcement on GLOVE_INFO that can be used"));
+  LcmGloveHost host(bus, simulated_glove_descriptor());
+  host.publish({});
+  ASSERT_TRUE(search.wait_for(1, std::chrono::seconds(10)).has_value());
+  EXPECT_THAT(search.troubles(), testing::SizeIs(2)) << "the refusals";
 }
 
 /// Both ends on one bus. The server answers each state that it reads by `wanted`; both ends have their envelope.

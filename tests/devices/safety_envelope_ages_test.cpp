@@ -42,6 +42,19 @@ TEST_F(Envelope, ACommandThatAnswersAnOldStateFadesAlthoughNewStatesCome) {
   EXPECT_TRUE(next().reasons().is_command_old);
 }
 
+TEST_F(Envelope, AnOldStateIsToldWithItsOwnAgeWhateverTheCommandAnswers) {
+  settle(pull(15.0));
+  GloveCommand old = pull(15.0);
+  old.state_time = state_.time - milliseconds(600);
+  SafeCommand safe;
+  for (int i = 0; i < 20; ++i) {
+    now_ += milliseconds(1);
+    safe = checked(envelope_.limit(old, state_, now_));
+  }
+  EXPECT_TRUE(safe.reasons().is_state_old);
+  EXPECT_THAT(to_text(safe.reasons(), safe.age()), testing::MatchesRegex("no force: the glove's state is 2. ms old"));
+}
+
 TEST_F(Envelope, ACommandThatAnswersAStateOfTheFutureFades) {
   settle(pull(10.0));
   GloveCommand forged = pull(10.0);

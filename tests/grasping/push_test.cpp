@@ -27,7 +27,9 @@ class PushedBall : public ::testing::Test {
     touch.depth = depth;
     push_.add(touch, speed_m_per_ms, Vector3d::Zero());
   }
-  geometry::Displacement displacement() { return push_.displacement(ball_.radius(), 1.0); }
+  geometry::Displacement displacement(double milliseconds = 1.0) {
+    return push_.displacement(ball_.radius(), milliseconds);
+  }
 
   double speed_m_per_ms = 1.0;
 
@@ -67,6 +69,13 @@ TEST_F(PushedBall, GoesLittleFasterThanTheSegment) {
   speed_m_per_ms = 0.5e-3;
   press(Vector3d::UnitX(), GraspingHand::kResistance_m + 30e-3);
   EXPECT_NEAR(displacement().v.x(), -Push::kFastest * speed_m_per_ms, 1e-6);
+}
+
+// The thumb would push a part away before the fingers, which are as late, can close round it.
+TEST_F(PushedBall, GoesNoFartherInALateCallThanInFiveMilliseconds) {
+  speed_m_per_ms = 0.2e-3;
+  press(Vector3d::UnitX(), GraspingHand::kResistance_m + 30e-3);
+  EXPECT_NEAR(displacement(60.0).v.x(), -Push::kFastest * speed_m_per_ms * 5.0, 1e-6);
 }
 
 TEST_F(PushedBall, StaysWhileTheSegmentStandsStill) {
