@@ -88,7 +88,7 @@ std::string unexpected_arguments(const CLI::App& app) {
 std::string wrong_count(const CLI::App& app, const CLI::ParseError& error) {
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr) return "";
   const std::string text = error.what();
-  const std::string name = text.substr(0, text.find(':'));  // nothing else tells it
+  const std::string name = text.substr(0, text.find(':'));  // nothing else tells it; `Cli.WrongUsageIsRefused` looks
   const CLI::Option* const option = chosen_command(app).get_option_no_throw(name);
   if (option == nullptr) return "";
   const auto given = static_cast<int>(option->results().size());

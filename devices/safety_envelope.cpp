@@ -67,9 +67,9 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   LimitReasons& reasons = safe.reasons_;
   reasons = faults(wanted, newest, now);
   if (!reasons.not_finite) {
-    const nanoseconds age = age_of(wanted.state_time, now);
-    observe_delay(age, now);
-    safe.age_ = reasons.is_state_old ? age_of(state_.time, now) : age;
+    safe.age_ = age_of(wanted.state_time, now);
+    safe.state_age_ = age_of(state_.time, now);
+    observe_delay(safe.age_, now);
   }
   if (is_finite(wanted)) {
     wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};

@@ -23,9 +23,10 @@ class SafeCommand {
   /// Sequences, times, forces and torques.
   const GloveCommand& values() const noexcept { return values_; }
   const LimitReasons& reasons() const noexcept { return reasons_; }
-  /// Time since the measurement of the state that the command answers. If the glove's newest state is old itself, time
-  /// since the measurement of that one.
+  /// Time since the measurement of the state that the command answers.
   std::chrono::nanoseconds age() const noexcept { return age_; }
+  /// Time since the measurement of the glove's newest state.
+  std::chrono::nanoseconds state_age() const noexcept { return state_age_; }
   /// Energy (J) that force and torque may still give to the hand: `SafetyEnvelope`.
   double energy() const noexcept { return energy_; }
   /// Energy (J) that the hand has given up for others since the last interruption: `GloveState::taken`.
@@ -37,13 +38,15 @@ class SafeCommand {
   GloveCommand values_;
   LimitReasons reasons_;
   std::chrono::nanoseconds age_{0};
+  std::chrono::nanoseconds state_age_{0};
   double energy_ = 0.0;
   double taken_ = 0.0;
 };
 
 /// The most serious reason in plain words, such as "no force: the glove's state is 14 ms old"; empty without reasons.
-/// `age` is `SafeCommand::age`.
+/// `age` is that of the newest state if this is old, else `SafeCommand::age`.
 std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
+std::string to_text(const SafeCommand& command);
 
 /// One envelope stands before each device: one at the server's end of a link and one at the glove's end, or one alone
 /// for a device in the server's process. It remembers the last command and the last state, so call it once a period.

@@ -97,7 +97,7 @@ class GloveRecord {
     csv_.add(seconds(period.state.time)).add(period.state.X_WH);
     csv_.add(command.values().f_H_W).add(command.values().t_H_W);
     if (command.values().sequence > 0) {
-      csv_.add(seconds(command.age())).add(to_text(command.reasons(), command.age()));
+      csv_.add(seconds(command.age())).add(to_text(command));
     } else {
       csv_.add("").add("");  // no server has sent a command: there is no age, and no force to reduce
     }

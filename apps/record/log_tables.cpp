@@ -40,7 +40,8 @@ class Table {
 
   void close(std::vector<LogTable>& tables) {
     if (!writer_) {
-      if (std::filesystem::exists(path_)) warn(path_ + " is of another log: this one has nothing for it");
+      std::error_code error;
+      if (std::filesystem::exists(path_, error)) warn(path_ + " is not of this log, which has no rows for it");
       return;
     }
     writer_->close();

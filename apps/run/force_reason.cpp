@@ -49,7 +49,8 @@ ForceReason recorded_reason(const devices::HapticState& state, std::size_t numbe
 ForceReason force_reason(const devices::SafeCommand& command) noexcept {
   using Cause = ForceReason::Cause;
   const devices::LimitReasons& reasons = command.reasons();
-  if (reasons.is_fading()) return {Cause::kEnvelope, reasons, command.age()};
+  if (reasons.is_fading())
+    return {Cause::kEnvelope, reasons, reasons.is_state_old ? command.state_age() : command.age()};
   if (!limits_to_tell(reasons).any()) return {};
   return {Cause::kLimit, limits_to_tell(reasons), command.age()};
 }
@@ -67,6 +68,8 @@ std::string to_text(const ForceReason& reason) {
              std::to_string(reason.age / std::chrono::milliseconds(1)) + " ms old";
     case Cause::kGlove:
       if (reason.reasons.is_stopped) return "no force: the glove has ended or was stopped for good";
+      // The glove tells the age of the command only.
+      if (reason.reasons.is_state_old) return "at the glove: no force: the glove's state is old";
       return "at the glove: " + devices::to_text(reason.reasons, reason.age);
     case Cause::kLimitAtGlove:
       return "at the glove: " + devices::to_text(reason.reasons, reason.age);

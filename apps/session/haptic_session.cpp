@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <thread>
 
@@ -107,19 +108,19 @@ std::vector<devices::GloveInfo> wait_for_gloves(const std::shared_ptr<devices::L
   std::vector<devices::GloveInfo> infos;
   constexpr int kPatientTurns = 10;  // a second
   int turns = 0;
-  bool has_told = false;
+  std::set<std::string> told;
   while (infos.size() < hands.size() && !should_stop()) {
     const std::int64_t device = hands[infos.size()].device;
     watch({.awaited_device = device});
     if (auto info = search.wait_for(device, std::chrono::milliseconds(100))) {
       infos.push_back(std::move(*info));
       turns = 0;
-    } else if (++turns >= kPatientTurns && !has_told) {
+    } else if (++turns >= kPatientTurns) {
       std::vector<std::string> sentences = search.troubles();
       if (std::string silence = told_silence(device, hands, search); !silence.empty())
         sentences.push_back(std::move(silence));
-      has_told = !sentences.empty();
-      if (has_told) watch({.sentences = std::move(sentences)});
+      std::erase_if(sentences, [&](const std::string& sentence) { return !told.insert(sentence).second; });
+      if (!sentences.empty()) watch({.sentences = std::move(sentences)});
     }
   }
   return infos;

@@ -41,4 +41,8 @@ std::string to_text(const LimitReasons& reasons, nanoseconds age) {
   return {};
 }
 
+std::string to_text(const SafeCommand& command) {
+  return to_text(command.reasons(), command.reasons().is_state_old ? command.state_age() : command.age());
+}
+
 }  // namespace glissade::devices

@@ -10,11 +10,14 @@ namespace glissade::devices {
 
 namespace {
 
+/// Anyone may send any number.
+constexpr std::size_t kMostSenders = 64;
+
 std::string refusal(MessageError error) {
   switch (error) {
     case MessageError::kWrongSize:
     case MessageError::kUndecodable:
-      return "they are not of the type that this program knows (lcmtypes/)";
+      return "they are not of the type that this program knows";
     case MessageError::kWrongVersion:
       return "they have another version of the type";
     case MessageError::kNotFinite:
@@ -49,7 +52,7 @@ GloveSearch::GloveSearch(std::shared_ptr<LcmBus> bus) : bus_(checked_bus(std::mo
     const MessageError error = decode(message, header, state);
     const std::lock_guard lock(mutex_);
     if (error == MessageError::kNone) {
-      senders_.insert(header.device);
+      if (senders_.size() < kMostSenders) senders_.insert(header.device);
     } else {
       refusals_.insert(refused("states", kGloveStateChannel, error));
     }

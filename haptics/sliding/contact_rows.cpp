@@ -60,6 +60,7 @@ void ContactRows::note_situation() {
 }
 
 void ContactRows::find(double reach, double reach_ahead, WorkBudget& budget) {
+  uses_room_ = {};
   note_situation();
   if (may_be_kept_ && reach <= reach_ && reach_ahead <= reach_ahead_ && situation_ == found_in_) {
     add_rows_of_ahead();
@@ -190,10 +191,16 @@ void ContactRows::keep_contacts(const std::function<bool(std::size_t row)>& is_k
   is_of_failure_.resize(kept);
 }
 
-/// A contact closer than its margin demands part of it back.
+/// A contact closer than its margin demands it back: as a whole where there was not enough room before, else a part.
 void ContactRows::add(const Contact& contact) {
   const double missing = contact.margin - contact.gap;
-  add(contact, missing > 0.0 ? 0.7 * missing : missing);
+  add(contact, missing);
+  CoupledRow& row = rows_.back();
+  if (belongs_to(row, uses_room_)) {
+    row.bound = std::min(row.bound, bound_in_room(contact));
+  } else if (missing > 0.0 && !belongs_to(row, lacks_room_) && row.bound != -kUnbounded) {
+    row.bound = 0.7 * missing;
+  }
 }
 
 void ContactRows::add(const Contact& contact, double bound, bool is_of_failure) {
@@ -246,14 +253,33 @@ void ContactRows::add_failures(std::span<const UncertifiedPair> failures) {
   }
 }
 
-void ContactRows::use_room() {
+void ContactRows::use_room(const std::array<bool, kMaxParts>& parts) {
   may_be_kept_ = false;
+  for (std::size_t p = 0; p < kMaxParts; ++p) {
+    uses_room_[p] = uses_room_[p] || parts[p];
+    lacks_room_[p] = lacks_room_[p] || parts[p];
+  }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const double room = is_of_failure_[i] ? 0.0 : contacts_[i].gap - least_gap(contacts_[i]);
-    rows_[i].bound = std::min(rows_[i].bound, -std::max(0.0, room));
+    if (!belongs_to(rows_[i], uses_room_)) continue;
+    rows_[i].bound = std::min(rows_[i].bound, is_of_failure_[i] ? 0.0 : bound_in_room(contacts_[i]));
   }
 }
 
+void ContactRows::margins_fit() {
+  for (std::size_t p = 0; p < kMaxParts; ++p)
+    lacks_room_[p] = uses_room_[p];
+}
+
+/// Whether one of these parts touches there.
+bool ContactRows::belongs_to(const CoupledRow& row, const std::array<bool, kMaxParts>& parts) const {
+  return parts[static_cast<std::size_t>(row.part)] || (row.other >= 0 && parts[static_cast<std::size_t>(row.other)]);
+}
+
+double ContactRows::bound_in_room(const Contact& contact) const {
+  return std::min(0.0, least_gap(contact) - contact.gap);
+}
+
+/// The gap to which a contact may close where there is no room for its margin.
 double ContactRows::least_gap(const Contact& contact) const {
   const ContactScene& scene = shared_.scene;
   const auto mover = contact.rider < 0 ? static_cast<std::size_t>(contact.part)

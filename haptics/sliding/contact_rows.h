@@ -2,6 +2,7 @@
 
 /// The constraint rows of a step: one for each contact within reach, and more for pairs that could not be certified.
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -46,13 +47,15 @@ class ContactRows {
   /// Adds rows for failed certificates: each keeps the part's triangle on its side of the plane that separated the
   /// pair.
   void add_failures(std::span<const UncertifiedPair> failures);
-  /// Demands no margin back, and lets contacts close to little more than their minimum clearance: for places that are
-  /// too narrow for the margins. Standing still is allowed then.
-  void use_room();
+  /// For places that are too narrow for the margins: the contacts of these parts demand nothing back, and may close to
+  /// little more than their minimum clearance. Standing still is allowed then. Holds until `find`; after it, margins
+  /// are demanded back only as a whole (`margins_fit`), or parts would go to and fro between what is too narrow for the
+  /// margins and what is wide enough for a part of them.
+  void use_room(const std::array<bool, kMaxParts>& parts);
+  /// There is a place where the contacts of all parts have what they demand.
+  void margins_fit();
 
   std::span<const CoupledRow> rows() const { return rows_; }
-  /// Whether a row comes from a failed certificate.
-  bool is_of_failure(std::size_t row) const { return is_of_failure_[row]; }
   /// The contacts with rows, one for each.
   std::span<const Contact> contacts() const { return contacts_; }
   /// The contacts with rows and, after them, those ahead; to be taken away. Rows of failed certificates are dropped
@@ -82,6 +85,8 @@ class ContactRows {
   void keep_contacts(const std::function<bool(std::size_t row)>& is_kept);
   void add_rows_of_ahead();
   double least_gap(const Contact& contact) const;
+  bool belongs_to(const CoupledRow& row, const std::array<bool, kMaxParts>& parts) const;
+  double bound_in_room(const Contact& contact) const;
   void add(const Contact& contact);
   void add(const Contact& contact, double bound, bool is_of_failure = false);
 
@@ -110,6 +115,8 @@ class ContactRows {
   std::vector<Contact> contacts_ahead_;  // without a row
   std::vector<Contact> all_contacts_;
   std::vector<CoupledRow> rows_;
+  std::array<bool, kMaxParts> uses_room_{};   // since the last `find`
+  std::array<bool, kMaxParts> lacks_room_{};  // at the last places for which it was tried
 };
 
 }  // namespace glissade::haptics

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <numeric>
 
 #include "sliding/allowed_fraction.h"
 #include "sliding/energy.h"
@@ -18,7 +20,9 @@ constexpr int kHalvings = 6;
 // Work of a projection, in the unit of `collision::WorkMeter`: rough. Steps take 0.4 ns a unit.
 constexpr std::int64_t kWorkOfProjection = 500;
 constexpr std::int64_t kWorkOfRow = 50;
-constexpr std::int64_t kWorkOfFriction = 150;  // of a row and a step of the friction solver
+constexpr std::int64_t kWorkOfFriction = 60;  // of an evaluation of a contact
+/// Evaluations of each contact, however little work is left.
+constexpr std::int64_t kLeastFriction = 40;
 
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
 
@@ -58,9 +62,7 @@ std::array<double, kMaxParts> StepFinder::find_forces(WorkBudget& budget) {
   rows_.keep_contacts_only();
   Displacements left;
   do {
-    budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
-    if (!project(wanted_)) return {};
-    budget.spend(work_of_friction());
+    if (!project(wanted_, budget)) return {};
     left = shorten();
   } while (rows_.find_violated(left, budget));
   std::array<double, kMaxParts> lengths{};
@@ -115,17 +117,14 @@ void StepFinder::try_projection(WorkBudget& budget) {
   Displacements shortened;
   do {
     is_first_order_ = false;
-    const std::int64_t work = kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows());
-    budget.spend(work);
-    if (!project(damped_)) {
+    if (!project(damped_, budget)) {
       step_ = {.clipped = true};
       end_trial(budget);
       return;
     }
-    budget.spend(work_of_friction());
     shortened = shorten();
     if (is_worth_another(shortened)) {
-      budget.spend(work);
+      budget.spend(kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows()));
       is_first_order_ = !project_again();
       shortened = shorten();
     }
@@ -237,11 +236,10 @@ void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
     }
     // Rows of failed certificates forbid more than necessary. They may leave nothing where a shorter step would be
     // free.
-    if (is_certified && projections_ > 1 && step_.length < kNotWorthIt * shared_.largest_margin) {
+    if (projections_ > 1 && step_.length < kNotWorthIt * shared_.largest_margin) {
       is_certified = false;
-      take_first();
-    } else if (!is_certified && step_.length < kNotWorthIt * shared_.largest_margin) {
-      take_first();
+      step_ = first_;
+      forces_ = first_forces_;
     }
   }
   if (is_certified) {
@@ -253,12 +251,6 @@ void StepFinder::conclude(bool is_certified, WorkBudget& budget) {
     step_ = {.clipped = true};
     end_trial(budget);
   }
-}
-
-/// Goes back to the step of the first projection.
-void StepFinder::take_first() {
-  step_ = first_;
-  forces_ = first_forces_;
 }
 
 /// Shortens the parts whose pairs fail; the others go on.
@@ -354,26 +346,30 @@ void StepFinder::begin_certificate(const Displacements& displacements, WorkBudge
 }
 
 /// Projects on all rows. Returns false if the solver finds no solution; then the parts stand still.
-bool StepFinder::project(const Displacements& wanted) {
+bool StepFinder::project(const Displacements& wanted, WorkBudget& budget) {
   const std::span<const geometry::Displacement> of_parts = shared_.of_parts(wanted);
+  const std::int64_t work = kWorkOfProjection + kWorkOfRow * std::ssize(rows_.rows());
+  budget.spend(work);
   CoupledProjection projection = solver_.project(of_parts, grips_, rows_.rows());
-  if (projection.status == ProjectionStatus::kInfeasible || costs_energy(projection)) {
-    // Not every contact can have its margin back, or only far from where the part is wanted.
-    rows_.use_room();
+  if (is_too_narrow(projection)) {
+    rows_.use_room(parts_without_room(wanted));
+    budget.spend(2 * work);
     projection = solver_.project(of_parts, grips_, rows_.rows());
+  } else {
+    rows_.margins_fit();
   }
   forces_.clear();
   projected_.fill({});
   if (projection.status != ProjectionStatus::kSolved) return false;
   projected_ = projection.displacements;
   set_forces(projection);
-  if (shared_.rules.friction.is_on() && !forces_.empty()) solve_friction(wanted);
+  if (shared_.rules.friction.is_on() && !forces_.empty()) solve_friction(wanted, budget);
   return true;
 }
 
-/// Whether the springs hold more energy after the projected displacements than the margins that they give back are
-/// worth.
-bool StepFinder::costs_energy(const CoupledProjection& projection) const {
+/// Whether not every contact can have its margin back, or only for more energy of the springs than a margin is worth.
+bool StepFinder::is_too_narrow(const CoupledProjection& projection) const {
+  if (projection.status == ProjectionStatus::kInfeasible) return true;
   if (projection.status != ProjectionStatus::kSolved) return false;
   Displacements left;
   for (std::size_t p = 0; p < shared_.count(); ++p) {
@@ -384,20 +380,37 @@ bool StepFinder::costs_energy(const CoupledProjection& projection) const {
          energy(shared_.states, wanted_) + energy_allowance(shared_.states, wanted_, shared_.largest_margin);
 }
 
-void StepFinder::solve_friction(const Displacements& wanted) {
-  const Friction& friction = shared_.rules.friction;
-  coefficients_.clear();
-  for (std::size_t i = 0; i < rows_.rows().size(); ++i) {
-    const bool rubs = !rows_.is_of_failure(i);  // the others are no contacts
-    coefficients_.push_back(!rubs ? 0.0 : slipped(rows_.rows()[i]) ? friction.sliding : friction.at_rest);
+/// The parts that have too little room, with those that touch them: others keep their margins.
+std::array<bool, kMaxParts> StepFinder::parts_without_room(const Displacements& wanted) {
+  std::array<std::size_t, kMaxParts> group{};  // the least number of the parts that touch each other
+  std::iota(group.begin(), group.end(), 0u);
+  for (const CoupledRow& row : rows_.rows()) {
+    if (row.other < 0) continue;
+    const auto [least, other] =
+        std::minmax(group[static_cast<std::size_t>(row.part)], group[static_cast<std::size_t>(row.other)]);
+    std::replace(group.begin(), group.end(), std::size_t{other}, std::size_t{least});
   }
-  friction_solver_.solve(shared_.of_parts(wanted), grips_, rows_.rows(), coefficients_, projected_, forces_);
+  std::array<bool, kMaxParts> without{};
+  for (std::size_t first = 0; first < shared_.count(); ++first) {
+    if (group[first] != first) continue;
+    rows_of_group_.clear();
+    std::copy_if(rows_.rows().begin(), rows_.rows().end(), std::back_inserter(rows_of_group_),
+                 [&](const CoupledRow& row) { return group[static_cast<std::size_t>(row.part)] == first; });
+    if (!is_too_narrow(solver_.project(shared_.of_parts(wanted), grips_, rows_of_group_))) continue;
+    for (std::size_t p = first; p < shared_.count(); ++p)
+      without[p] = without[p] || group[p] == first;
+  }
+  return without;
 }
 
-/// Of the last projection.
-std::int64_t StepFinder::work_of_friction() const {
-  if (!shared_.rules.friction.is_on() || forces_.empty()) return 0;
-  return kWorkOfFriction * friction_solver_.steps() * std::ssize(rows_.rows());
+void StepFinder::solve_friction(const Displacements& wanted, WorkBudget& budget) {
+  const Friction& friction = shared_.rules.friction;
+  coefficients_.clear();
+  for (const CoupledRow& row : rows_.rows())
+    coefficients_.push_back(slipped(row) ? friction.sliding : friction.at_rest);
+  const std::int64_t most = std::max(budget.left / kWorkOfFriction, kLeastFriction * std::ssize(rows_.rows()));
+  friction_solver_.solve(shared_.of_parts(wanted), grips_, rows_.rows(), coefficients_, projected_, forces_, most);
+  budget.spend(kWorkOfFriction * friction_solver_.evaluations());
 }
 
 /// Whether the two sides slid past each other in the last call; their common motion does not count.

@@ -57,19 +57,18 @@ class StepFinder {
   void begin_trial(WorkBudget& budget);
   void try_projection(WorkBudget& budget);
   void conclude(bool is_certified, WorkBudget& budget);
-  void take_first();
   void try_half(WorkBudget& budget);
   void end_trial(WorkBudget& budget);
   void note_arrivals();
   bool gains_energy();
-  bool project(const Displacements& wanted);
+  bool project(const Displacements& wanted, WorkBudget& budget);
   bool is_worth_another(const Displacements& displacements) const;
   bool project_again();
   void set_forces(const CoupledProjection& projection);
   Displacements shorten();
-  bool costs_energy(const CoupledProjection& projection) const;
-  std::int64_t work_of_friction() const;
-  void solve_friction(const Displacements& wanted);
+  bool is_too_narrow(const CoupledProjection& projection) const;
+  std::array<bool, kMaxParts> parts_without_room(const Displacements& wanted);
+  void solve_friction(const Displacements& wanted, WorkBudget& budget);
   bool slipped(const CoupledRow& row) const;
   void keep_covered(Displacements& displacements);
   void begin_certificate(const Displacements& displacements, WorkBudget& budget);
@@ -85,6 +84,7 @@ class StepFinder {
   ProjectionSolver solver_;
   FrictionSolver friction_solver_;
   std::vector<double> coefficients_;  // of friction, one for each row
+  std::vector<CoupledRow> rows_of_group_;
   Displacements projected_;
   std::vector<RowForce> forces_;
   std::vector<RowForce> first_forces_;     // of the projection on contacts alone

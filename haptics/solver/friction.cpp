@@ -50,8 +50,8 @@ struct ForceInCone {
 ForceInCone within_cone(const Eigen::Vector3d& force, double coefficient) {
   const double normal = force.x();
   const double across = force.tail<2>().norm();
-  if (across <= coefficient * normal) return {force, Eigen::Matrix3d::Identity()};
   if (coefficient * across <= -normal) return {};
+  if (across <= coefficient * normal) return {force, Eigen::Matrix3d::Identity()};
   const Eigen::Vector2d direction = force.tail<2>() / across;
   Eigen::Vector3d edge;  // of the cone, towards the force
   edge << 1.0, coefficient * direction;
@@ -67,8 +67,8 @@ ForceInCone within_cone(const Eigen::Vector3d& force, double coefficient) {
 
 void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::span<const CouplingStiffness> stiffness,
                            std::span<const CoupledRow> rows, std::span<const double> coefficients,
-                           std::array<geometry::Displacement, kMaxParts>& displacements,
-                           std::vector<RowForce>& forces) {
+                           std::array<geometry::Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces,
+                           std::int64_t most_evaluations) {
   GLISSADE_ASSERT(coefficients.size() == rows.size() && stiffness.size() == wanted.size());
   prepare(stiffness, rows, coefficients);
   Vector y(6 * std::ssize(wanted));
@@ -78,10 +78,14 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
     y_wanted_.segment<6>(first) = whitened(wanted[p], stiffness[p]);
     y.segment<6>(first) = whitened(displacements[p], stiffness[p]);
   }
-  const double tolerance = kSettled * y_wanted_.norm();
+  double size = std::max(y_wanted_.norm(), y.norm());
+  for (const Row& row : rows_)
+    size = std::max(size, row.bound / std::sqrt(row.response));
+  const double tolerance = kSettled * size;
   penalty_ = kFirstPenalty;
-  steps_ = 0;
-  for (int i = 0; i < kMostUpdates && steps_ < kMostSteps; ++i) {
+  evaluations_ = 0;
+  most_evaluations_ = most_evaluations;
+  for (int i = 0; i < kMostUpdates && may_go_on(); ++i) {
     find_balance(y, tolerance);
     if (update_forces(y) <= tolerance) break;
     penalty_ = std::min(10.0 * penalty_, kLastPenalty);
@@ -124,9 +128,8 @@ void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::
 
 /// Newton's method for the displacements at which springs and stiff contacts are in balance.
 void FrictionSolver::find_balance(Vector& y, double tolerance) {
-  while (steps_ < kMostSteps) {
+  while (may_go_on()) {
     const Balance balance = balance_at(y);
-    ++steps_;
     const double excess = balance.excess.norm();
     if (excess <= tolerance) return;
     const Vector way = -balance.derivative.partialPivLu().solve(balance.excess);
@@ -137,8 +140,12 @@ void FrictionSolver::find_balance(Vector& y, double tolerance) {
     };
     for (int i = 0; i < kMostHalvings && !is_enough(); ++i)
       fraction *= 0.5;
-    y += fraction * way;
+    y += fraction * way;  // however small: the next piece of a function with bends may be an easier one
   }
+}
+
+bool FrictionSolver::may_go_on() const {
+  return evaluations_ < std::min(most_evaluations_, kMostEvaluations * std::ssize(rows_));
 }
 
 Eigen::Vector3d FrictionSolver::Row::motion(const Vector& y) const {
@@ -154,7 +161,8 @@ Eigen::Vector3d FrictionSolver::stiff_force(const Row& row, const Eigen::Vector3
   return row.force_contact - stiffness_of(row) * too_far;
 }
 
-FrictionSolver::Vector FrictionSolver::excess_at(const Vector& y) const {
+FrictionSolver::Vector FrictionSolver::excess_at(const Vector& y) {
+  evaluations_ += std::ssize(rows_);
   Vector excess = y - y_wanted_;
   for (const Row& row : rows_) {
     const Eigen::Vector3d force = within_cone(stiff_force(row, row.motion(y)), row.coefficient).force;
@@ -164,7 +172,8 @@ FrictionSolver::Vector FrictionSolver::excess_at(const Vector& y) const {
   return excess;
 }
 
-FrictionSolver::Balance FrictionSolver::balance_at(const Vector& y) const {
+FrictionSolver::Balance FrictionSolver::balance_at(const Vector& y) {
+  evaluations_ += std::ssize(rows_);
   Balance balance{y - y_wanted_, Matrix::Identity(y.size(), y.size())};
   const auto add = [&](Eigen::Index a, const Jacobian& J_a, const Eigen::Matrix3d& stiffness, Eigen::Index b,
                        const Jacobian& J_b) {

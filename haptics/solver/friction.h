@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -32,23 +33,25 @@ struct RowForce {
 /// with a line search balances them with the springs, in six unknowns a part. Then the forces found are taken for
 /// granted, and stiff contacts add what is missing, until nothing is.
 ///
-/// The forces of redundant contacts, such as four feet on a floor, are not unique, but all contacts are equally stiff
-/// here and begin without forces. So the feet share the load, and a part that fits exactly is not pressed into its
-/// seat: forces that only press against each other would hold it by friction for good.
-/// Deterministic; reuses its memory. Not thread-safe.
+/// The forces of redundant contacts, such as four feet on a floor, are not unique, but here contacts are stiff in the
+/// same measure and begin without forces. So the feet share the load, and a part that fits exactly is not pressed into
+/// its seat: forces that only press against each other would hold it by friction for good. Deterministic; reuses its
+/// memory. Not thread-safe.
 class FrictionSolver {
  public:
-  /// `coefficients` has one entry for each row. On entry, `displacements` is the projection without friction, from
-  /// which Newton's method begins: where friction would hold a part in motion as well as one at rest, it goes on
-  /// moving. Replaces it, and `forces`, by the solution. Cost O(rows) a step of Newton's method: some ten to some
-  /// hundred, at most kMostSteps.
+  /// `coefficients` has one entry for each row. On entry, `displacements` is the projection without friction. Newton's
+  /// method begins there: where the part could stand still as well as move, it mostly finds the motion. Replaces it,
+  /// and `forces`, by the solution, or by what is nearest after so many evaluations of contacts, at most
+  /// kMostEvaluations of each.
   void solve(std::span<const geometry::Displacement> wanted, std::span<const CouplingStiffness> stiffness,
              std::span<const CoupledRow> rows, std::span<const double> coefficients,
-             std::array<geometry::Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces);
+             std::array<geometry::Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces,
+             std::int64_t most_evaluations = std::numeric_limits<std::int64_t>::max());
 
-  static constexpr int kMostSteps = 500;
-  /// Steps of the last solution.
-  int steps() const { return steps_; }
+  /// Of each contact in a solution.
+  static constexpr std::int64_t kMostEvaluations = 2000;
+  /// Evaluations of contacts in the last solution.
+  std::int64_t evaluations() const { return evaluations_; }
 
  private:
   static constexpr int kMostDof = 6 * static_cast<int>(kMaxParts);
@@ -82,14 +85,16 @@ class FrictionSolver {
   void find_balance(Vector& y, double tolerance);
   double stiffness_of(const Row& row) const { return penalty_ / row.response; }
   Eigen::Vector3d stiff_force(const Row& row, const Eigen::Vector3d& motion) const;
-  Vector excess_at(const Vector& y) const;
-  Balance balance_at(const Vector& y) const;
+  bool may_go_on() const;
+  Vector excess_at(const Vector& y);
+  Balance balance_at(const Vector& y);
   double update_forces(const Vector& y);
 
   std::vector<Row> rows_;
   Vector y_wanted_;
   double penalty_ = 0.0;
-  int steps_ = 0;
+  std::int64_t evaluations_ = 0;
+  std::int64_t most_evaluations_ = 0;
 };
 
 }  // namespace glissade::haptics

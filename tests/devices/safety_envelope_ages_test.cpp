@@ -52,7 +52,7 @@ TEST_F(Envelope, AnOldStateIsToldWithItsOwnAgeWhateverTheCommandAnswers) {
     safe = checked(envelope_.limit(old, state_, now_));
   }
   EXPECT_TRUE(safe.reasons().is_state_old);
-  EXPECT_THAT(to_text(safe.reasons(), safe.age()), testing::MatchesRegex("no force: the glove's state is 2. ms old"));
+  EXPECT_THAT(to_text(safe), testing::MatchesRegex("no force: the glove's state is 2. ms old"));
 }
 
 TEST_F(Envelope, ACommandThatAnswersAStateOfTheFutureFades) {

@@ -180,6 +180,24 @@ TEST(SessionCheck, WithoutPatienceLooksAtTicksOfTheWholeRun) {
   EXPECT_EQ(hasty.colliding_ticks_of_part(0), 0);
 }
 
+TEST(SessionCheck, AnOpenPartMayLieOnABodyButNotCutIt) {
+  const auto table = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.02}, 12));
+  const auto sheet = std::make_shared<const geometry::TriangleMesh>(geometry::make_plate({0.03, 0.03}, 2));
+  const Eigen::Isometry3d X_WTable(Eigen::Translation3d(0.0, 0.0, -0.01));
+  HapticScene scene;
+  scene.placed_obstacles = {{table, X_WTable}};
+  scene.obstacles = {{.body = std::make_shared<const haptics::ContactBody>(table), .X_WO = X_WTable}};
+  scene.parts = {{.name = "sheet", .part_V = std::make_shared<const haptics::SlidingPart>(sheet)}};
+  SessionRecorder samples(100, 1, 1);
+  for (int i = 0; i < 100; ++i) {
+    devices::HapticState state;
+    state.parts[0].X_WV.translation().x() = 1e-4 * i;
+    if (i >= 90) state.parts[0].X_WV.linear() = Eigen::AngleAxisd(0.01, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    samples.record(state);
+  }
+  EXPECT_EQ(SessionCheck(samples, scene, {nullptr}).colliding_ticks_of_part(0), 10) << "those that are tilted";
+}
+
 TEST(SessionText, ARunWithoutASearchHasNoMeans) {
   const Session session = session_of(10);
   EXPECT_THAT(to_text(summary_of(session), session, true), Not(HasSubstr("nan")));

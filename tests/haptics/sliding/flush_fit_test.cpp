@@ -171,6 +171,7 @@ TEST_P(FlushFits, ComeOutAgainstFrictionOrAreHeldByIt) {
     const Vector3d spring_W = flush.spring_W();
     EXPECT_LT((forces.sum_W - spring_W).norm(), 0.02 * spring_W.norm() + 1e-9) << fit().name << ", " << friction;
     EXPECT_LE(forces.friction, 1.001 * friction * forces.pressed) << fit().name;
+    EXPECT_GT(flush.moved_A().norm(), 0.3 * askew.norm()) << fit().name << ", " << friction;
     if ((flush.moved_A() - askew).norm() > 2e-3) {
       EXPECT_GT(forces.friction, 0.8 * friction * forces.pressed) << fit().name << ": not pressed more than needed";
     }
@@ -216,6 +217,42 @@ TEST(FlushFit, FrictionIsThatOfTheForcesWhichHoldAPullAside) {
   EXPECT_NEAR(-forces.sum_W.x(), pull, 0.01 * pull);
   EXPECT_LT(z, 0.0345) << "friction holds it back";
   EXPECT_NEAR(-forces.sum_W.z(), 1e3 * (0.035 - z), 0.01 * forces.friction);
+}
+
+// Less than two margins: the part may come nearer than its margin to the side to which it is pulled. It stays there.
+TEST(NarrowSlot, APartRestsInItWithoutGoingToAndFro) {
+  for (const double clearance : {0.9, 1.5, 1.85, 1.95}) {
+    const double half = 0.01 + 0.5 * clearance * kMarginOfFits;
+    const auto wall = geometry::make_box({0.02, 0.1, 0.1}, 12);
+    Sliding sliding(
+        {obstacle_of(wall, pose({half + 0.01, 0.0, 0.0})), obstacle_of(wall, pose({-half - 0.01, 0.0, 0.0}))},
+        test_support::cube(0.02), Isometry3d::Identity(), {.rules = {.margin = kMarginOfFits}});
+    for (int i = 0; i < 20; ++i)
+      sliding.advance(pose({1e-3, 0.0, 0.0}));
+    const Isometry3d X_WV = sliding.result().X_WV;
+    for (int i = 0; i < 20; ++i) {
+      sliding.advance(pose({1e-3, 0.0, 0.0}));
+      EXPECT_LT((sliding.result().X_WV.translation() - X_WV.translation()).norm(), 1e-9) << clearance;
+    }
+    for (int i = 0; i < 50; ++i)
+      sliding.advance(pose({1e-3, 0.02, 0.01}));
+    EXPECT_LT((sliding.result().X_WV.translation().tail<2>() - Vector3d(1e-3, 0.02, 0.01).tail<2>()).norm(), 1e-9)
+        << "along the walls it goes";
+  }
+}
+
+TEST(NarrowSlot, AnotherPartKeepsItsMargin) {
+  const auto wall = geometry::make_box({0.02, 0.1, 0.1}, 12);
+  const double half = 0.01 + 0.7 * kMarginOfFits;
+  const auto cube = test_support::cube(0.02);
+  MultiPartSliding sliding(
+      {obstacle_of(wall, pose({half + 0.01, 0.0, 0.0})), obstacle_of(wall, pose({-half - 0.01, 0.0, 0.0})),
+       obstacle_of(wall, pose({0.5, 0.0, 0.0}))},
+      {{.part_V = cube}, {.part_V = cube, .X_WV_start = pose({0.47, 0.0, 0.0})}}, {.margin = kMarginOfFits});
+  const std::vector<Isometry3d> X_WG{pose({1e-3, 0.0, 0.0}), pose({0.482, 0.0, 0.0})};
+  for (int i = 0; i < 100; ++i)
+    sliding.advance(X_WG);
+  EXPECT_NEAR(sliding.result(1).X_WV.translation().x(), 0.48 - kMarginOfFits, 0.01 * kMarginOfFits);
 }
 
 TEST(FlushFit, OpensToTheMarginWhereThereIsRoom) {

@@ -215,6 +215,57 @@ TEST(FrictionSolver, WithoutCoefficientFindsTheFrictionlessProjection) {
   ASSERT_EQ(forces.size(), static_cast<std::size_t>(projection.active_count));
 }
 
+/// A part whose hand wants nothing of it, in a solution of one contact.
+class OneContact : public ::testing::Test {
+ protected:
+  void solve(double bound, double coefficient) {
+    rows_[0].n = Vector3d::UnitZ();
+    rows_[0].r = {0.0, 0.0, -0.01};
+    rows_[0].bound = bound;
+    solver_.solve(std::vector<geometry::Displacement>{{}}, std::vector<CouplingStiffness>{{kStiffness_N_per_m, 0.5}},
+                  rows_, std::vector<double>{coefficient}, displacements_, forces_);
+  }
+
+  std::vector<CoupledRow> rows_{1};
+  FrictionSolver solver_;
+  std::array<geometry::Displacement, kMaxParts> displacements_{};
+  std::vector<RowForce> forces_;
+};
+
+TEST_F(OneContact, ThatDemandsItsMarginBackIsSoonSolved) {
+  solve(1e-6, 0.3);
+  EXPECT_NEAR(displacements_[0].v.z(), 1e-6, 1e-12);
+  ASSERT_EQ(forces_.size(), 1u);
+  EXPECT_NEAR(forces_[0].normal, kStiffness_N_per_m * 1e-6, 1e-9);
+  EXPECT_LT(solver_.evaluations(), 60);
+}
+
+TEST_F(OneContact, WithoutFrictionNeverPulls) {
+  solve(-1e-6, 0.0);
+  EXPECT_TRUE(displacements_[0].is_zero());
+  EXPECT_TRUE(forces_.empty());
+}
+
+TEST(FrictionSolver, TwoPartsHoldEachOtherByTheSameForce) {
+  std::vector<CoupledRow> rows(1);
+  rows[0].n = Vector3d::UnitZ();
+  rows[0].bound = 0.0;
+  rows[0].part = 1;
+  rows[0].other = 0;
+  const std::vector<geometry::Displacement> wanted{{{0.0, 0.0, 1e-3}, {0.0, 0.0, 0.0}},
+                                                   {{1e-3, 0.0, 0.0}, {0.0, 0.0, 0.0}}};
+  const CouplingStiffness hold{kStiffness_N_per_m, 0.5};
+  std::array<geometry::Displacement, kMaxParts> displacements{};
+  std::vector<RowForce> forces;
+  FrictionSolver().solve(wanted, std::vector<CouplingStiffness>{hold, hold}, rows, std::vector<double>{0.2},
+                         displacements, forces);
+  ASSERT_EQ(forces.size(), 1u);
+  EXPECT_NEAR(forces[0].normal, 0.5, 1e-6) << "each yields by half";
+  EXPECT_NEAR(displacements[1].v.z(), 0.5e-3, 1e-9);
+  EXPECT_NEAR(displacements[0].v.x(), 0.2 * 0.5e-3, 1e-9) << "is dragged along";
+  EXPECT_NEAR(displacements[1].v.x(), 1e-3 - 0.2 * 0.5e-3, 1e-9);
+}
+
 /// A part between two walls without any room, pulled along them and a tenth as far against one.
 TEST(FrictionSolver, APartThatFitsExactlyIsOnlyHeldByTheForceThatPressesIt) {
   constexpr double kPull = 1e-3;
