@@ -24,8 +24,8 @@ class Push {
   /// In speeds of the fastest segment that pushes: a part that comes free goes no faster, however deep the target lies.
   /// What the hand would need to go on waits.
   static constexpr double kFastest = 1.5;
-  /// Milliseconds: a call for a longer time pushes no farther. The other fingers, which have moved on meanwhile as well,
-  /// come to the part after this call, and may close round it before the next one.
+  /// Milliseconds: a call for a longer time pushes no farther. The other fingers, which have moved on meanwhile as
+  /// well, come to the part after this call, and may close round it before the next one.
   static constexpr double kLongestPush_ms = 5.0;
   /// Metres a millisecond: hands as slow as this stand still.
   static constexpr double kStill_m_per_ms = 1e-6;
