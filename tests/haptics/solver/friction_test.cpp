@@ -249,6 +249,7 @@ TEST_F(OneContact, WithoutFrictionNeverPulls) {
 TEST(FrictionSolver, TwoPartsHoldEachOtherByTheSameForce) {
   std::vector<CoupledRow> rows(1);
   rows[0].n = Vector3d::UnitZ();
+  rows[0].r.setZero();
   rows[0].bound = 0.0;
   rows[0].part = 1;
   rows[0].other = 0;
