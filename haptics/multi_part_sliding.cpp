@@ -87,6 +87,7 @@ class MultiPartSliding::Cycle {
     for (HeldPartState& part : shared_.states)
       part.result.ended_early = !is_complete;
     statistics_.ended_early += is_complete ? 0 : 1;
+    statistics_.unsettled_friction = step_finder_.unsettled_friction();
     statistics_.most_work = std::max(statistics_.most_work, shared_.work_of_steps - budget.left);
   }
 

@@ -57,7 +57,8 @@ struct Contact {
   /// Number of the rider (`RiderChain`) whose contact it is, among the riders; −1: it is a contact of the part itself.
   std::int32_t rider = -1;
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, perpendicular to n_W
-  /// Metres: the gap at which the contact stops the part. For the paper's method, the margin is instead the largest gap
+  /// Metres: the gap at which the contact stops the part: the margin of the two bodies, or less where there is too
+  /// little room for it. For the paper's method, the margin is instead the largest gap
   /// of a reported contact, 2 µm: 4 brackets, where a bracket is the width at which a bisection ends, 0.5 µm. The
   /// contacts of that method demand a gap of only half a bracket.
   double margin = 0.0;

@@ -33,7 +33,10 @@ struct SearchStatistics {
 struct CallStatistics {
   std::int64_t calls = 0;
   std::int64_t ended_early = 0;  ///< calls that ended because their work was used up
-  std::int64_t most_work = 0;    ///< of a call, without its searches; unit as in `SlidingRules::work_budget`
+  /// Steps whose friction was not computed to the end, because its work was used up. They pass through nothing, but
+  /// their forces are not in balance with the springs.
+  std::int64_t unsettled_friction = 0;
+  std::int64_t most_work = 0;  ///< of a call, without its searches; unit as in `SlidingRules::work_budget`
 };
 
 /// The simulation of one part in the hand. Not thread-safe.

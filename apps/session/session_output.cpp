@@ -160,6 +160,11 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
                                                      static_cast<long long>(session.calls.ended_early),
                                                      static_cast<long long>(session.calls.calls)));
   }
+  if (session.calls.unsettled_friction > 0) {
+    rows.emplace_back("friction not in balance",
+                      formatted("%lld steps: their work was used up first",
+                                static_cast<long long>(session.calls.unsettled_friction)));
+  }
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
   if (!verbose) return rows;
   add_collision_rows(session, rows);
@@ -271,6 +276,7 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"objects", session.objects},
                          {"calls", session.calls.calls},
                          {"calls_ended_early", session.calls.ended_early},
+                         {"unsettled_friction", session.calls.unsettled_friction},
                          {"collision_frames", session.collision_frames},
                          {"collision_stages",
                           {{"queue", stage(session.collision.queue)},

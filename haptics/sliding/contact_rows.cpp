@@ -197,7 +197,7 @@ void ContactRows::add(const Contact& contact) {
   add(contact, missing);
   CoupledRow& row = rows_.back();
   if (belongs_to(row, uses_room_)) {
-    row.bound = std::min(row.bound, bound_in_room(contact));
+    give_up_margin(rows_.size() - 1);
   } else if (missing > 0.0 && !belongs_to(row, lacks_room_) && row.bound != -kUnbounded) {
     row.bound = 0.7 * missing;
   }
@@ -261,7 +261,11 @@ void ContactRows::use_room(const std::array<bool, kMaxParts>& parts) {
   }
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (!belongs_to(rows_[i], uses_room_)) continue;
-    rows_[i].bound = std::min(rows_[i].bound, is_of_failure_[i] ? 0.0 : bound_in_room(contacts_[i]));
+    if (is_of_failure_[i]) {
+      rows_[i].bound = std::min(rows_[i].bound, 0.0);
+    } else {
+      give_up_margin(i);
+    }
   }
 }
 
@@ -275,8 +279,11 @@ bool ContactRows::belongs_to(const CoupledRow& row, const std::array<bool, kMaxP
   return parts[static_cast<std::size_t>(row.part)] || (row.other >= 0 && parts[static_cast<std::size_t>(row.other)]);
 }
 
-double ContactRows::bound_in_room(const Contact& contact) const {
-  return std::min(0.0, least_gap(contact) - contact.gap);
+/// The contact stops the parts at a smaller gap from now on, and where the gap is smaller still, as they are.
+void ContactRows::give_up_margin(std::size_t row) {
+  Contact& contact = contacts_[row];
+  contact.margin = least_gap(contact);
+  rows_[row].bound = std::min({rows_[row].bound, 0.0, contact.margin - contact.gap});
 }
 
 /// The gap to which a contact may close where there is no room for its margin.

@@ -86,7 +86,7 @@ class ContactRows {
   void add_rows_of_ahead();
   double least_gap(const Contact& contact) const;
   bool belongs_to(const CoupledRow& row, const std::array<bool, kMaxParts>& parts) const;
-  double bound_in_room(const Contact& contact) const;
+  void give_up_margin(std::size_t row);
   void add(const Contact& contact);
   void add(const Contact& contact, double bound, bool is_of_failure = false);
 

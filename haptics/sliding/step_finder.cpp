@@ -411,6 +411,7 @@ void StepFinder::solve_friction(const Displacements& wanted, WorkBudget& budget)
   const std::int64_t most = std::max(budget.left / kWorkOfFriction, kLeastFriction * std::ssize(rows_.rows()));
   friction_solver_.solve(shared_.of_parts(wanted), grips_, rows_.rows(), coefficients_, projected_, forces_, most);
   budget.spend(kWorkOfFriction * friction_solver_.evaluations());
+  if (!friction_solver_.is_settled()) ++unsettled_friction_;
 }
 
 /// Whether the two sides slid past each other in the last call; their common motion does not count.

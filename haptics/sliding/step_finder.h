@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -45,6 +46,8 @@ class StepFinder {
 
   ContactRows& rows() { return rows_; }
   std::span<const RowForce> forces() const { return forces_; }
+  /// Number of projections whose friction is not in balance: the solver came to its limit of work first.
+  std::int64_t unsettled_friction() const { return unsettled_friction_; }
   /// Smallest distance (metres) of two bodies at their present poses that is certain in spite of rounding.
   double certain_distance() const { return certificate_.certain_distance(); }
 
@@ -84,6 +87,7 @@ class StepFinder {
   ProjectionSolver solver_;
   FrictionSolver friction_solver_;
   std::vector<double> coefficients_;  // of friction, one for each row
+  std::int64_t unsettled_friction_ = 0;
   std::vector<CoupledRow> rows_of_group_;
   Displacements projected_;
   std::vector<RowForce> forces_;

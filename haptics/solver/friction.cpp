@@ -85,9 +85,10 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
   penalty_ = kFirstPenalty;
   evaluations_ = 0;
   most_evaluations_ = most_evaluations;
-  for (int i = 0; i < kMostUpdates && may_go_on(); ++i) {
-    find_balance(y, tolerance);
-    if (update_forces(y) <= tolerance) break;
+  is_settled_ = false;
+  for (int i = 0; i < kMostUpdates && !is_settled_ && may_go_on(); ++i) {
+    const bool is_balanced = find_balance(y, tolerance);
+    is_settled_ = update_forces(y) <= tolerance && is_balanced;
     penalty_ = std::min(10.0 * penalty_, kLastPenalty);
   }
 
@@ -126,14 +127,15 @@ void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::
   }
 }
 
-/// Newton's method for the displacements at which springs and stiff contacts are in balance.
-void FrictionSolver::find_balance(Vector& y, double tolerance) {
+/// Newton's method for the displacements at which springs and stiff contacts are in balance. Returns whether it found
+/// them.
+bool FrictionSolver::find_balance(Vector& y, double tolerance) {
   while (may_go_on()) {
     const Balance balance = balance_at(y);
     const double excess = balance.excess.norm();
-    if (excess <= tolerance) return;
+    if (excess <= tolerance) return true;
     const Vector way = -balance.derivative.partialPivLu().solve(balance.excess);
-    if (!way.allFinite()) return;
+    if (!way.allFinite()) return false;
     double fraction = 1.0;
     const auto is_enough = [&] {
       return excess_at(y + fraction * way).norm() <= (1.0 - kEnoughDescent * fraction) * excess;
@@ -142,6 +144,7 @@ void FrictionSolver::find_balance(Vector& y, double tolerance) {
       fraction *= 0.5;
     y += fraction * way;  // however small: the next piece of a function with bends may be an easier one
   }
+  return false;
 }
 
 bool FrictionSolver::may_go_on() const {

@@ -52,6 +52,8 @@ class FrictionSolver {
   static constexpr std::int64_t kMostEvaluations = 2000;
   /// Evaluations of contacts in the last solution.
   std::int64_t evaluations() const { return evaluations_; }
+  /// Whether the last solution is one: otherwise its forces are not in balance with the springs.
+  bool is_settled() const { return is_settled_; }
 
  private:
   static constexpr int kMostDof = 6 * static_cast<int>(kMaxParts);
@@ -82,7 +84,7 @@ class FrictionSolver {
 
   void prepare(std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
                std::span<const double> coefficients);
-  void find_balance(Vector& y, double tolerance);
+  bool find_balance(Vector& y, double tolerance);
   double stiffness_of(const Row& row) const { return penalty_ / row.response; }
   Eigen::Vector3d stiff_force(const Row& row, const Eigen::Vector3d& motion) const;
   bool may_go_on() const;
@@ -95,6 +97,7 @@ class FrictionSolver {
   double penalty_ = 0.0;
   std::int64_t evaluations_ = 0;
   std::int64_t most_evaluations_ = 0;
+  bool is_settled_ = true;
 };
 
 }  // namespace glissade::haptics

@@ -241,6 +241,22 @@ TEST(NarrowSlot, APartRestsInItWithoutGoingToAndFro) {
   }
 }
 
+// The haptic thread takes its constraints from gap and margin.
+TEST(NarrowSlot, ContactsStopThePartNoEarlierThanTheyMust) {
+  const auto wall = geometry::make_box({0.02, 0.1, 0.1}, 12);
+  const double half = 0.01 + 0.45 * kMarginOfFits;
+  Sliding sliding({obstacle_of(wall, pose({half + 0.01, 0.0, 0.0})), obstacle_of(wall, pose({-half - 0.01, 0.0, 0.0}))},
+                  test_support::cube(0.02), Isometry3d::Identity(), {.rules = {.margin = kMarginOfFits}});
+  for (int i = 0; i < 20; ++i)
+    sliding.advance(pose({0.0, 1e-4 * i, 0.0}));
+  ASSERT_GE(sliding.result().contacts.size(), 8u);
+  for (const Contact& contact : sliding.result().contacts) {
+    EXPECT_NEAR(contact.gap, 0.45 * kMarginOfFits, 0.01 * kMarginOfFits);
+    EXPECT_LT(contact.margin, contact.gap);
+    EXPECT_GT(contact.margin, 0.0);
+  }
+}
+
 TEST(NarrowSlot, AnotherPartKeepsItsMargin) {
   const auto wall = geometry::make_box({0.02, 0.1, 0.1}, 12);
   const double half = 0.01 + 0.7 * kMarginOfFits;

@@ -218,12 +218,12 @@ TEST(FrictionSolver, WithoutCoefficientFindsTheFrictionlessProjection) {
 /// A part whose hand wants nothing of it, in a solution of one contact.
 class OneContact : public ::testing::Test {
  protected:
-  void solve(double bound, double coefficient) {
+  void solve(double bound, double coefficient, std::int64_t most_evaluations = 1000) {
     rows_[0].n = Vector3d::UnitZ();
     rows_[0].r = {0.0, 0.0, -0.01};
     rows_[0].bound = bound;
     solver_.solve(std::vector<geometry::Displacement>{{}}, std::vector<CouplingStiffness>{{kStiffness_N_per_m, 0.5}},
-                  rows_, std::vector<double>{coefficient}, displacements_, forces_);
+                  rows_, std::vector<double>{coefficient}, displacements_, forces_, most_evaluations);
   }
 
   std::vector<CoupledRow> rows_{1};
@@ -238,6 +238,13 @@ TEST_F(OneContact, ThatDemandsItsMarginBackIsSoonSolved) {
   ASSERT_EQ(forces_.size(), 1u);
   EXPECT_NEAR(forces_[0].normal, kStiffness_N_per_m * 1e-6, 1e-9);
   EXPECT_LT(solver_.evaluations(), 60);
+  EXPECT_TRUE(solver_.is_settled());
+}
+
+TEST_F(OneContact, ThatIsNotSolvedWithTheWorkGivenIsToldSo) {
+  solve(1e-6, 0.3, 2);
+  EXPECT_LE(solver_.evaluations(), 2);
+  EXPECT_FALSE(solver_.is_settled());
 }
 
 TEST_F(OneContact, WithoutFrictionNeverPulls) {
