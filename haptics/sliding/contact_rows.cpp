@@ -291,7 +291,7 @@ double ContactRows::least_gap(const Contact& contact) const {
   const ContactScene& scene = shared_.scene;
   const auto mover = contact.rider < 0 ? static_cast<std::size_t>(contact.part)
                                        : scene.first_rider() + static_cast<std::size_t>(contact.rider);
-  const auto [first, second] = std::minmax(contact.obstacle, static_cast<std::int32_t>(scene.body_of_mover(mover)));
+  const auto [first, second] = std::minmax({contact.obstacle, static_cast<std::int32_t>(scene.body_of_mover(mover))});
   return kLeastGap * scene.min_clearance(first, second);
 }
 

@@ -387,8 +387,8 @@ std::array<bool, kMaxParts> StepFinder::parts_without_room(const Displacements& 
   for (const CoupledRow& row : rows_.rows()) {
     if (row.other < 0) continue;
     const auto [least, other] =
-        std::minmax(group[static_cast<std::size_t>(row.part)], group[static_cast<std::size_t>(row.other)]);
-    std::replace(group.begin(), group.end(), std::size_t{other}, std::size_t{least});
+        std::minmax({group[static_cast<std::size_t>(row.part)], group[static_cast<std::size_t>(row.other)]});
+    std::replace(group.begin(), group.end(), other, least);
   }
   std::array<bool, kMaxParts> without{};
   for (std::size_t first = 0; first < shared_.count(); ++first) {
