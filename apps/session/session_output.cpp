@@ -161,9 +161,8 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
                                                      static_cast<long long>(session.calls.calls)));
   }
   if (session.calls.unsettled_friction > 0) {
-    rows.emplace_back("friction not in balance",
-                      formatted("%lld steps: their work was used up first",
-                                static_cast<long long>(session.calls.unsettled_friction)));
+    rows.emplace_back("friction not in balance", formatted("%lld steps: their work was used up first",
+                                                           static_cast<long long>(session.calls.unsettled_friction)));
   }
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
   if (!verbose) return rows;
