@@ -16,8 +16,8 @@ function(glissade_set_warnings target)
 endfunction()
 
 # glissade_precompile(TARGET PRIVATE headers... | REUSE_FROM target): these headers are compiled once for the whole target.
-# clang-tidy and check_includes go without that. So does g++: with Eigen precompiled, version 12 loses the third component
-# of vectors that are made of arrays (LcmLink.StatesArriveWhole). The option is ccache's wish.
+# clang-tidy and check_includes go without that. So does g++: it compiles functions of a precompiled header by the options
+# of that header, so code that reads LCM messages would lose -fno-strict-aliasing. The option is ccache's wish.
 function(glissade_precompile target)
   if(CMAKE_DISABLE_PRECOMPILE_HEADERS OR CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     return()
