@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace glissade::devices {
 
@@ -107,5 +108,8 @@ struct LinkStatistics {
            out_of_sequence;
   }
 };
+
+/// Why messages were refused whoever sent them, such as "a number is not finite"; empty if none were.
+std::vector<std::string> refusals_of(const LinkStatistics& link);
 
 }  // namespace glissade::devices

@@ -4,6 +4,7 @@
 #include <glissade/devices/safety_envelope.h>
 
 #include "envelope/envelope_numbers.h"
+#include "envelope/given_wrenches.h"
 
 namespace glissade::devices {
 namespace {
@@ -13,6 +14,7 @@ using std::chrono::nanoseconds;
 constexpr double kFadePeriods = 7.0;
 constexpr double kLongestFallPeriods = 15.0;  // at 1 kHz, a force that falls in 20 gives more energy than is there
 constexpr double kReturn_s = 0.2;
+constexpr std::chrono::milliseconds kWatchdog{10};  // after which a device without a command exerts nothing
 constexpr double kMeanTime_s = 10.0;
 constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
 
@@ -57,7 +59,12 @@ SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patien
   descriptor_.max_force = std::min(descriptor_.max_force, force_rate_ * longest_fall_s);
   descriptor_.max_torque = std::min(descriptor_.max_torque, torque_rate_ * longest_fall_s);
   joint_torque_rate_ = rate_or_default(descriptor_.max_joint_torque_rate, descriptor_.max_joint_torque, descriptor_);
+  given_ = std::make_unique<GivenWrenches>(descriptor_.delay, std::max<nanoseconds>(kWatchdog, 2 * period_));
 }
+
+SafetyEnvelope::SafetyEnvelope(SafetyEnvelope&&) noexcept = default;
+SafetyEnvelope& SafetyEnvelope::operator=(SafetyEnvelope&&) noexcept = default;
+SafetyEnvelope::~SafetyEnvelope() = default;
 
 SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& newest, nanoseconds now) noexcept {
   const double dt = seconds_since_last_call(now);
@@ -99,9 +106,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
   last_ = forces;
   observe_share(forces);
-  f_sum_ += forces.f;
-  t_sum_ += forces.t;
-  ++summed_;
+  given_->give(now, forces.f, forces.t);
 
   safe.energy_ = energy_;
   safe.taken_ = taken_;

@@ -4,6 +4,7 @@
 /// descriptor, and lets the force fade whenever its basis is old, implausible or not permitted.
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -13,6 +14,8 @@
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
+
+class GivenWrenches;
 
 /// A command that a device may execute. Only `SafetyEnvelope` makes one that is not zero.
 class SafeCommand {
@@ -56,16 +59,16 @@ std::string to_text(const SafeCommand& command);
 /// that come within a second are late while their own time goes on, or if the glove's clock goes back, the difference
 /// is taken anew.
 ///
-/// A passivity observer counts the work of force and torque on the hand, by the measured motion and the command that
-/// was given, i.e. after all limits. The energy is what the hand has put in and not got back, at most 0.25 m times the
+/// A passivity observer counts the work of force and torque on the hand, by the measured motion and the commands
+/// that were given, i.e. after all limits: each from the delay of the device on, until the next acts, for 10 ms at most. The energy is what the hand has put in and not got back, at most 0.25 m times the
 /// largest force, and 0.1 J at the start for errors of sampling. The wrench is a continuous function of the energy and
 /// the velocity: below 0.1 J it shrinks smoothly, and it is never greater than what is left could bring to zero as a
 /// spring does (docs/safety.md has the derivation). When there is no force any more, the energy is at most 0.1 J. Below
 /// 0.1 J it recovers: without a force by 0.3 W; in a calm contact, in which less than 10 mJ went to and fro in about
-/// the last half second, by up to 0.5 W; at once while the force returns from an interruption and up to half a second
-/// after. All this together is at most 1 J and 0.3 W. For a glove that tells the delay of its link, the envelope at the
+/// the last half second, by up to 0.5 W; while a hand slower than 30 mm/s trembles, by 0.15 W; at once while the force
+/// returns from an interruption and up to half a second after. All this together is at most 1 J and 0.3 W. For a glove that tells the delay of its link, the envelope at the
 /// glove's end does this alone. So no delay and no error of the simulation can feed an oscillation that gives more than
-/// 20 mW, and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain
+/// 20 mW and is faster than that, and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain
 /// passivity control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time
 /// delays: a two-layer approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank
 /// and for tanks that pass energy on.
@@ -92,6 +95,9 @@ class SafetyEnvelope {
   /// caller. Throws as `validate` does.
   explicit SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods = 3.0,
                           std::chrono::nanoseconds period_of_caller = std::chrono::nanoseconds(0));
+  SafetyEnvelope(SafetyEnvelope&&) noexcept;
+  SafetyEnvelope& operator=(SafetyEnvelope&&) noexcept;
+  ~SafetyEnvelope();
 
   /// The command for this period: `wanted`, which answers one of the last states, reduced as far as the descriptor and
   /// the reasons demand. `newest` is the newest state; `now` is a time on the caller's clock. Sequences and times do
@@ -130,7 +136,7 @@ class SafetyEnvelope {
   Forces faded(double dt) const noexcept;
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
-  void observe_work(const GloveState& state) noexcept;
+  void observe_work(const GloveState& state, std::chrono::nanoseconds begin, std::chrono::nanoseconds end) noexcept;
   void book(double change) noexcept;
   void take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept;
   void observe_share(const Forces& exerted) noexcept;
@@ -167,11 +173,11 @@ class SafetyEnvelope {
   double refill_;         // J, for all that recovers
   double came_ = 0.0;     // J, in about the last half second
   double went_ = 0.0;
+  double balance_ = 0.0;                     // likewise, what came less what went
+  std::chrono::nanoseconds quick_until_{0};  // up to then the hand does not count as at rest
   double energy_scale_ = 1.0;
-  std::chrono::nanoseconds free_until_{0};           // up to then the force returns, and the refill pays for its work
-  Eigen::Vector3d f_sum_ = Eigen::Vector3d::Zero();  // of the commands since the newest state
-  Eigen::Vector3d t_sum_ = Eigen::Vector3d::Zero();
-  int summed_ = 0;
+  std::chrono::nanoseconds free_until_{0};  // up to then the force returns, and the refill pays for its work
+  std::unique_ptr<GivenWrenches> given_;
 
   std::chrono::nanoseconds least_age_before_{0};  // in the last whole half second
   std::chrono::nanoseconds least_age_{0};         // since then
@@ -179,6 +185,7 @@ class SafetyEnvelope {
 
   bool has_state_ = false;
   GloveState state_;                                    // newest finite one
+  std::chrono::nanoseconds measured_{0};                // when, on the caller's clock
   std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
   std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
   std::chrono::nanoseconds late_time_{0};               // the time of that state

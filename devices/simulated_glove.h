@@ -85,7 +85,7 @@ class SimulatedGlove {
   /// Advances the simulation by `dt` under the command `newest`. Returns the new state: its sequence is higher by one,
   /// its time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command counts for three periods
   /// of the device, and fades in seven more: as in a device that guards itself against a driver that is late. (An
-  /// envelope counts the work of the whole command all the same.) The wearer goes on in the script at `pace` times its
+  /// envelope counts it for 10 ms.) The wearer goes on in the script at `pace` times its
   /// speed, from 0 (the wearer stops and waits) to 1.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 

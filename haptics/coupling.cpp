@@ -5,6 +5,7 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/coupling.h>
 
+#include "loop/lever_limit.h"
 #include "loop/passive_limit.h"
 
 namespace glissade::haptics {
@@ -47,22 +48,29 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingSti
 }
 
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
-                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay) noexcept {
+                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
+                                double lever) noexcept {
   constexpr double kDampingTime_s = 5e-3;
-  const CouplingStiffness passive = passive_stiffness(device, period, delay);
   const double lag = lag_of(device, period, delay);
   // What the device's own damping leaves.
   const auto damping = [lag](double stiffness, double limit) {
     return std::clamp((limit - stiffness) * lag, 0.0, kDampingTime_s * stiffness);
   };
+  const LeverLimit limit{passive_limit(device, device.damping, device.max_stiffness, lag),
+                         passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag), lever};
+  const CouplingStiffness passive = passive_stiffness(device, period, delay);
   Coupling coupling;
-  coupling.stiffness.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});
-  coupling.stiffness.rotational = std::min({wanted.rotational, device.max_rotational_stiffness, passive.rotational});
-  const double limit = passive_limit(device, device.damping, device.max_stiffness, lag);
-  const double rotational_limit =
-      passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag);
-  coupling.damping.translational = std::min(damping(coupling.stiffness.translational, limit), device.max_damping);
-  coupling.damping.rotational = damping(coupling.stiffness.rotational, rotational_limit);
+  CouplingStiffness& K = coupling.stiffness;
+  K.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});
+  K.rotational = std::min({wanted.rotational, device.max_rotational_stiffness, passive.rotational});
+  const double stiffness_share = limit.share_of(K);
+  K = {stiffness_share * K.translational, stiffness_share * K.rotational};
+
+  CouplingDamping& B = coupling.damping;
+  B.translational = std::min(damping(K.translational, limit.translational), device.max_damping);
+  B.rotational = damping(K.rotational, limit.rotational);
+  const double damping_share = limit.share_beside(K, {B.translational / lag, B.rotational / lag});
+  B = {damping_share * B.translational, damping_share * B.rotational};
   return coupling;
 }
 

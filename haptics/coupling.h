@@ -76,9 +76,12 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingSti
                       std::chrono::nanoseconds period = kTickPeriod,
                       std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
 
-/// The same without the check. Real-time safe.
+/// The same without the check, for a part whose reference point is `lever` (metres) from the device's. There the spring
+/// against translation also turns the device, like a spring of K l² against rotation, for which the device's rotational
+/// damping has to suffice, too. Real-time safe.
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
-                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay) noexcept;
+                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
+                                double lever = 0.0) noexcept;
 
 /// Force (N) and torque (Nm) on a body about some point, in world axes.
 struct Wrench {

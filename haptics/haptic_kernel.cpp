@@ -54,6 +54,7 @@ struct HapticKernel::Hand {
   std::array<Coupling, kMaxParts> couplings{};  // one for each part that can be held
   Coupling present{};
   double link_delay_s = 0.0;
+  double lever_m = 0.0;  // from the hand to the reference point, smoothed
   ContactForce contacts;
   devices::SafetyEnvelope envelope;
   bool is_fading = false;                            // in the last tick
@@ -86,17 +87,19 @@ struct HapticKernel::Hand {
     return lifted;
   }
 
-  /// Adapts the present coupling to the delay of the link. Returns the share of the coupling's force that is left:
-  /// force and torque shrink alike, so that the wrench stays a sum of contact normals.
+  /// Adapts the present coupling to the delay of the link and to the distance of the part's reference point. Returns
+  /// the share of the coupling's force that is left: force and torque shrink alike, so that the wrench stays a sum of
+  /// contact normals.
   double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
-                double dt) noexcept {
+                double distance, double dt) noexcept {
     constexpr double kTime_s = 0.1;
     constexpr double kMost_s = 1.0;
     const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
     link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
+    lever_m += std::min(1.0, dt / kTime_s) * (distance - lever_m);
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
-    present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay);
+    present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay, lever_m);
     if (fingers) fingers->set_link_delay(delay);
     return std::min(present.stiffness.translational / coupling.stiffness.translational,
                     present.stiffness.rotational / coupling.stiffness.rotational);
@@ -286,12 +289,12 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const std::size_t p = tick.part.value_or(0);
   const KernelPart& part = parts_[p];
   const Coupling& coupling = hand.couplings[p];
-  const double softness = hand.soften(coupling, period_, state.link_delay, dt);
   const bool is_finite = has_pose(state);
   const Eigen::Vector3d p_WH = is_finite ? Eigen::Vector3d(state.X_WH.translation()) : hand.p_Wref;
   const Eigen::Vector3d& p_Vref = set.parts[p].p_Vref;
   const double lever = part.radius + (p_Vref - part.p_Vref).norm();  // no point of the part is farther from p_Vref
   const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * p_Vref) : p_WH;
+  const double softness = hand.soften(coupling, period_, state.link_delay, (p_Wref - p_WH).norm(), dt);
   if (tick.part != hand.last_part || p_Vref != hand.p_Vref) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
     hand.owed = 0.0;

@@ -7,9 +7,9 @@
 
 #include <glissade/apps/progress.h>
 #include <glissade/apps/record/dump_signal.h>
+#include <glissade/apps/run/link_watch.h>
 #include <glissade/apps/run/machine_check.h>
 #include <glissade/apps/run/run_watch.h>
-#include <glissade/apps/run/second_glove.h>
 #include <glissade/apps/run/session_sink.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/scene/scene_hash.h>
@@ -239,16 +239,16 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
       {.period = period, .ticks = ticks, .spin = settings.spin, .observer = recorders.observer()});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
-  std::vector<SecondGlove> second_gloves(gloves.size());
+  std::vector<LinkWatch> links;
+  for (const std::int64_t number : numbers)
+    links.emplace_back(number);
   const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
   if (!missing.empty()) watch({.sentences = {missing}});
   while (!server.is_done() && !server.has_failed() && !should_stop()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     RunWatch::News news = run_watch.news(server.late_ticks());
     for (std::size_t h = 0; h < gloves.size(); ++h) {
-      if (!second_gloves[h].appears_in(gloves[h]->statistics())) continue;
-      news.events.push_back("a second glove sends as glove " + std::to_string(numbers[h]) +
-                            ", and is not heard: give it another --device");
+      std::ranges::move(links[h].news(gloves[h]->statistics()), std::back_inserter(news.events));
     }
     for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
       news.events.push_back(std::move(sentence));

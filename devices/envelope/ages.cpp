@@ -41,15 +41,12 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   }
   const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
   if (!is_new) return;
-  if (is_plausible(state)) {
-    observe_work(state);
-  } else {
-    distrust_until_ = now + kDistrust;
-  }
-  f_sum_.setZero();
-  t_sum_.setZero();
-  summed_ = 0;
+  const bool plausible = is_plausible(state);
+  if (!plausible) distrust_until_ = now + kDistrust;
   update_offset(state, now);
+  const nanoseconds measured = std::min(now, state.time + offset_);
+  if (plausible && has_state_) observe_work(state, measured_, measured);
+  measured_ = measured;
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;
   state_ = state;
@@ -113,8 +110,7 @@ nanoseconds SafetyEnvelope::link_delay() const noexcept {
 }
 
 nanoseconds SafetyEnvelope::oldest_command() const noexcept {
-  const nanoseconds delay = link_delay();
-  return delay > patience_ ? delay + patience_ : patience_;
+  return link_delay() + patience_;
 }
 
 LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState& newest,

@@ -8,6 +8,7 @@
 #include <glissade/devices/safety_envelope.h>
 
 #include "envelope/envelope_numbers.h"
+#include "envelope/given_wrenches.h"
 
 namespace glissade::devices {
 
@@ -22,11 +23,16 @@ constexpr double kScaleRise_s = 0.3;
 constexpr double kReserve_J = 0.005;  // not given away, because the rates come after this limit
 constexpr double kFall_J = 0.05;      // of a spring that falls from the largest force to zero
 constexpr double kRecovery_W = 0.3;
+constexpr double kRefill_W = 0.25;       // of the 0.3 W that are promised: the rest is for ways that are not measured
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
 constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr double kStir_s = 0.5;
 constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is not calm
 constexpr double kCalmRefill_W = 0.5;
+constexpr double kTremblingRefill_W = 0.15;
+constexpr double kRestingSpeed_m_per_s = 0.03;
+constexpr double kRestingTurnRate = 0.5;  // rad/s
+constexpr nanoseconds kRested = std::chrono::milliseconds(500);
 constexpr double kForgotten_s = 1.0;
 
 /// The norm by the largest one; 0 where there is none.
@@ -46,13 +52,22 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
 
 }  // namespace
 
-// The command of a period is given until the next; where states are rare, the motion is shared among the commands.
-void SafetyEnvelope::observe_work(const GloveState& state) noexcept {
-  if (!has_state_ || summed_ == 0) return;
-  const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
-  const Eigen::Vector3d turned = turn_between(state_.X_WH.linear(), state.X_WH.linear());
-  const double work = (f_sum_.dot(moved) + t_sum_.dot(turned)) / summed_;
-  book(-work);
+/// The work between two states. What the hand did in between is taken as the cubic curve through both poses with both
+/// velocities: where states stay away, the force is gone after a few periods of a long way. How the hand really went
+/// there is not known, so it has put in nothing.
+void SafetyEnvelope::observe_work(const GloveState& state, nanoseconds begin, nanoseconds end) noexcept {
+  const double seconds = in_seconds(state.time - state_.time);
+  const auto curve = [seconds](const Eigen::Vector3d& way, const Eigen::Vector3d& v_begin,
+                               const Eigen::Vector3d& v_end) {
+    return [=](double u) {
+      return Eigen::Vector3d(u * u * (3.0 - 2.0 * u) * way +
+                             seconds * u * (1.0 - u) * ((1.0 - u) * v_begin - u * v_end));
+    };
+  };
+  const double given =
+      given_->work(begin, end, curve(state.X_WH.translation() - state_.X_WH.translation(), state_.v_WH, state.v_WH),
+                   curve(turn_between(state_.X_WH.linear(), state.X_WH.linear()), state_.w_WH, state.w_WH));
+  book(end - begin > patience_ ? std::min(0.0, -given) : -given);
 }
 
 void SafetyEnvelope::book(double change) noexcept {
@@ -60,6 +75,7 @@ void SafetyEnvelope::book(double change) noexcept {
   // No more than that counts, so that a contact is calm soon after a great stroke.
   double& stirred = change > 0.0 ? came_ : went_;
   stirred = std::min(stirred + std::abs(change), kMostStirred_J);
+  balance_ = std::clamp(balance_ + change, -kMostStirred_J, kMostStirred_J);
 }
 
 double SafetyEnvelope::most_energy() const noexcept {
@@ -102,15 +118,19 @@ void SafetyEnvelope::observe_share(const Forces& exerted) noexcept {
 /// pays off slowly what a contact has given too much, e.g. because its contacts vanished for a moment: but only while
 /// nothing oscillates.
 void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) noexcept {
-  refill_ = std::min(kMostRefill_J, refill_ + kRecovery_W * dt);
+  refill_ = std::min(kMostRefill_J, refill_ + kRefill_W * dt);
   if (gain_ < 1.0) free_until_ = now + kReturnIsFree;
   const double kept = 1.0 - std::min(1.0, dt / kStir_s);
   came_ *= kept;
   went_ *= kept;
+  balance_ *= kept;
+  if (state_.v_WH.norm() > kRestingSpeed_m_per_s || state_.w_WH.norm() > kRestingTurnRate) quick_until_ = now + kRested;
   // A force that comes back and slowly moves the hand is no oscillation.
   const double calm = std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
   if (energy_ < kStartEnergy_J) {
-    const double recovery = has_force ? calm * kCalmRefill_W : kRecovery_W;
+    // A hand that rests trembles, and puts in what it gets; an oscillation that feeds on the device gets more.
+    const double trembling = now >= quick_until_ && balance_ > 0.0 ? kTremblingRefill_W : 0.0;
+    const double recovery = has_force ? std::max(calm * kCalmRefill_W, trembling) : kRecovery_W;
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(kStartEnergy_J - energy_, most);
     refill_ -= refilled;

@@ -12,7 +12,7 @@
 namespace glissade::devices {
 
 inline constexpr double kStartEnergy_J = 0.1;
-inline constexpr double kMostRefill_J = 1.0;  // for returns and calm contacts; comes back by kRecovery_W
+inline constexpr double kMostRefill_J = 1.0;  // for returns and calm contacts; comes back by kRefill_W
 
 inline double in_seconds(std::chrono::nanoseconds time) noexcept {
   return std::chrono::duration<double>(time).count();

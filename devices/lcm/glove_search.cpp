@@ -5,6 +5,7 @@
 
 #include "lcm/checked_bus.h"
 #include "lcm/glove_messages.h"
+#include "lcm/link_monitor.h"
 
 namespace glissade::devices {
 
@@ -13,22 +14,8 @@ namespace {
 /// Anyone may send any number.
 constexpr std::size_t kMostSenders = 64;
 
-std::string refusal(MessageError error) {
-  switch (error) {
-    case MessageError::kWrongSize:
-    case MessageError::kUndecodable:
-      return "they are not of the type that this program knows";
-    case MessageError::kWrongVersion:
-      return "they have another version of the type";
-    case MessageError::kNotFinite:
-      return "a number is not finite";
-    default:
-      return "a number is out of its range";
-  }
-}
-
 std::string refused(const char* what, const char* channel, MessageError error) {
-  return std::string(what) + " on " + channel + " are refused: " + refusal(error);
+  return std::string(what) + " on " + channel + " are refused: " + std::string(words_of(error));
 }
 
 }  // namespace

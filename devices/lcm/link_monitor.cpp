@@ -5,6 +5,32 @@
 
 namespace glissade::devices {
 
+std::string_view words_of(MessageError error) noexcept {
+  switch (error) {
+    case MessageError::kWrongSize:
+    case MessageError::kUndecodable:
+      return "they are not of the type that this program knows";
+    case MessageError::kWrongVersion:
+      return "they have another version of the type";
+    case MessageError::kNotFinite:
+      return "a number is not finite";
+    default:
+      return "a number is out of its range";
+  }
+}
+
+std::vector<std::string> refusals_of(const LinkStatistics& link) {
+  std::vector<std::string> reasons;
+  const auto add = [&](std::uint64_t count, MessageError error) {
+    if (count > 0) reasons.emplace_back(words_of(error));
+  };
+  add(link.wrong_size + link.undecodable, MessageError::kWrongSize);
+  add(link.wrong_version, MessageError::kWrongVersion);
+  add(link.not_finite, MessageError::kNotFinite);
+  add(link.out_of_range, MessageError::kOutOfRange);
+  return reasons;
+}
+
 bool LinkMonitor::admit(MessageError error, const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept {
   if (error == MessageError::kNone) error = check(origin, now);
   counts_[static_cast<std::size_t>(error)].fetch_add(1, std::memory_order_relaxed);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <string_view>
 
 #include <glissade/devices/lcm_bus.h>
 
@@ -23,6 +24,9 @@ enum class MessageError {
   kOtherSender,
   kOutOfSequence
 };
+
+/// Why a message is refused whoever sent it, such as "a number is not finite".
+std::string_view words_of(MessageError error) noexcept;
 
 /// Who sent a message, and its place among the messages of this sender.
 struct MessageOrigin {

@@ -1,5 +1,8 @@
 /// The passivity observer and controller.
 
+#include <cmath>
+#include <numbers>
+
 #include <gtest/gtest.h>
 
 #include "envelope_fixture.h"
@@ -46,6 +49,39 @@ TEST_F(Envelope, GivesNothingBackToAHandThatOscillates) {
     given += 1e-3 * speed * push_at(speed, 1).values().f_H_W.x();
   }
   EXPECT_LT(given, 0.01) << "in ten seconds";
+}
+
+/// 0.35 mm to and fro, 10 times a second, as hands tremble.
+TEST_F(Envelope, GivesAReducedForceBackToAHandThatTrembles) {
+  push_at(0.0, 800);
+  push_at(0.1, 500);
+  double last = 0.0;
+  for (int ms = 0; ms < 3000; ++ms)
+    last = push_at(0.022 * std::sin(0.02 * std::numbers::pi * ms), 1).values().f_H_W.x();
+  EXPECT_GT(last, 18.0);
+}
+
+TEST_F(Envelope, CountsWhatTheDeviceExertsAndNotWhatItHasJustBeenTold) {
+  DeviceDescriptor late = kDevice;
+  late.delay = milliseconds(40);
+  envelope_ = SafetyEnvelope(late);
+  last_f_.setZero();
+  for (int i = 0; i < 800; ++i)
+    tick(pull(0.0));
+  EXPECT_EQ(push_at(-0.1, 30).energy(), 0.1) << "the device exerts nothing yet";
+  push_at(0.0, 100);
+  EXPECT_NEAR(push_at(-0.1, 30).energy(), 0.1 + 20.0 * 3e-3, 2e-3) << "20 N on a way of 3 mm";
+}
+
+TEST_F(Envelope, CountsACommandNoLongerThanADeviceExertsItWithoutAnother) {
+  push_at(0.0, 800);
+  const double before = push_at(0.0, 1).energy();
+  now_ += milliseconds(99);
+  state_.X_WH.translation().x() -= 0.1;
+  EXPECT_LE(push_at(0.0, 1).energy(), before) << "nobody knows when the hand went in";
+  now_ += milliseconds(99);
+  state_.X_WH.translation().x() += 0.1;
+  EXPECT_GT(push_at(0.0, 1).energy(), before - 0.1) << "20 N on all of the way would be 2 J";
 }
 
 TEST_F(Envelope, ForgetsTheEnergyOfAContactThatHasEnded) {

@@ -49,8 +49,15 @@ TEST_F(Kernel, TheForceStaysWhereItIsWhenTheReferencePointMoves) {
 TEST_F(Kernel, AHandBesideThePartFeelsTheTorqueOfItsLever) {
   tick(hand_at({0.2, 0.0, 0.5}), floor_below(0.0));
   const HandTick last = settle(hand_at({0.2, 0.0, 0.498}), floor_below(0.0));
-  EXPECT_TRUE(last.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9));
-  EXPECT_TRUE(last.command.values().t_H_W.isApprox(Vector3d(0.0, 0.4, 0.0), 1e-9));  // (−0.2, 0, 0) × (0, 0, 2)
+  const double force = last.command.values().f_H_W.z();
+  EXPECT_TRUE(last.command.values().f_H_W.isApprox(Vector3d(0.0, 0.0, force), 1e-9));
+  EXPECT_TRUE(last.command.values().t_H_W.isApprox(Vector3d(0.0, 0.2 * force, 0.0), 1e-9));  // (−0.2, 0, 0) × f
+  // So far away, the spring is as stiff as the damping against turning allows (`LeverLimit`).
+  const double share = force / 2.0;
+  const double limit = device_.damping / 0.5e-3;
+  const double rotational_limit = device_.rotational_damping / 0.5e-3;
+  const auto& [K, K_r] = kKernelStiffness;
+  EXPECT_NEAR((limit - share * K) * (rotational_limit - share * K_r) / (share * K * limit * 0.2 * 0.2), 1.0, 0.02);
 }
 
 TEST_F(Kernel, NeverExceedsTheDevice) {

@@ -1,0 +1,77 @@
+#pragma once
+
+/// What a device has exerted, and when: for the work between two states.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+namespace glissade::devices {
+
+/// The wrenches that were given to a device. Each acts `delay` after it was given, until the next one acts, and no
+/// longer than `watchdog`: a device without commands exerts nothing. Not thread-safe. Real-time safe.
+class GivenWrenches {
+ public:
+  GivenWrenches(std::chrono::nanoseconds delay, std::chrono::nanoseconds watchdog)
+      : delay_(delay), watchdog_(watchdog) {}
+
+  /// At `now` the device gets force (N) and torque (Nm). A time before the last one counts as that.
+  void give(std::chrono::nanoseconds now, const Eigen::Vector3d& f, const Eigen::Vector3d& t) noexcept {
+    if (count_ > 0) now = std::max(now, at(count_ - 1).given);
+    if (count_ == kMost) drop_oldest();
+    wrenches_[(first_ + count_++) % kMost] = {now, f, t};
+  }
+
+  /// The work (J) on a hand whose motion along the forces between `begin` and `end` is so far: `moved` and `turned` are
+  /// functions of the share of this time, from 0 to 1, and return the way until then (m, rad). Forgets what acts no
+  /// more at the end.
+  template <typename Moved, typename Turned>
+  double work(std::chrono::nanoseconds begin, std::chrono::nanoseconds end, const Moved& moved,
+              const Turned& turned) noexcept {
+    const double duration = std::chrono::duration<double>(end - begin).count();
+    const auto share = [&](std::chrono::nanoseconds time) {
+      return std::clamp(std::chrono::duration<double>(time - begin).count() / duration, 0.0, 1.0);
+    };
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count_ && duration > 0.0; ++i) {
+      const Wrench& wrench = at(i);
+      const std::chrono::nanoseconds from = wrench.given + delay_;
+      std::chrono::nanoseconds until = from + watchdog_;
+      if (i + 1 < count_) until = std::min(until, at(i + 1).given + delay_);
+      const double a = share(from);
+      const double b = share(until);
+      if (b > a) sum += wrench.f.dot(moved(b) - moved(a)) + wrench.t.dot(turned(b) - turned(a));
+    }
+    while (count_ > 1 && at(1).given + delay_ <= end)
+      drop_oldest();
+    return sum;
+  }
+
+ private:
+  struct Wrench {
+    std::chrono::nanoseconds given{0};
+    Eigen::Vector3d f = Eigen::Vector3d::Zero();
+    Eigen::Vector3d t = Eigen::Vector3d::Zero();
+  };
+
+  /// Those of a longer delay than so many periods are forgotten too early; and while states stay away, but not their
+  /// fade.
+  static constexpr std::size_t kMost = 256;
+
+  const Wrench& at(std::size_t i) const noexcept { return wrenches_[(first_ + i) % kMost]; }
+  void drop_oldest() noexcept {
+    first_ = (first_ + 1) % kMost;
+    --count_;
+  }
+
+  std::chrono::nanoseconds delay_;
+  std::chrono::nanoseconds watchdog_;
+  std::array<Wrench, kMost> wrenches_{};
+  std::size_t first_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace glissade::devices
