@@ -60,18 +60,19 @@ std::string to_text(const SafeCommand& command);
 /// is taken anew.
 ///
 /// A passivity observer counts the work of force and torque on the hand, by the measured motion and the commands
-/// that were given, i.e. after all limits: each from the delay of the device on, until the next acts, for 10 ms at most. The energy is what the hand has put in and not got back, at most 0.25 m times the
-/// largest force, and 0.1 J at the start for errors of sampling. The wrench is a continuous function of the energy and
-/// the velocity: below 0.1 J it shrinks smoothly, and it is never greater than what is left could bring to zero as a
-/// spring does (docs/safety.md has the derivation). When there is no force any more, the energy is at most 0.1 J. Below
-/// 0.1 J it recovers: without a force by 0.3 W; in a calm contact, in which less than 10 mJ went to and fro in about
-/// the last half second, by up to 0.5 W; while a hand slower than 30 mm/s trembles, by 0.15 W; at once while the force
-/// returns from an interruption and up to half a second after. All this together is at most 1 J and 0.3 W. For a glove that tells the delay of its link, the envelope at the
-/// glove's end does this alone. So no delay and no error of the simulation can feed an oscillation that gives more than
-/// 20 mW and is faster than that, and a hand at rest feels no jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain
-/// passivity control of haptic interfaces, 2002, for the observer; Franken et al., Bilateral telemanipulation with time
-/// delays: a two-layer approach combining passivity and transparency, 2011, for the shrinking with the energy in a tank
-/// and for tanks that pass energy on.
+/// that were given, i.e. after all limits: each from the delay of the device on, until the next acts, for 10 ms at
+/// most. The energy is what the hand has put in and not got back, at most 0.25 m times the largest force, and 0.1 J at
+/// the start for errors of sampling. The wrench is a continuous function of the energy and the velocity: below 0.1 J it
+/// shrinks smoothly, and it is never greater than what is left could bring to zero as a spring does (docs/safety.md has
+/// the derivation). When there is no force any more, the energy is at most 0.1 J. Below 0.1 J it recovers: without a
+/// force by 0.3 W; in a calm contact, in which less than 10 mJ went to and fro in about the last half second, by up to
+/// 0.5 W; while a hand slower than 30 mm/s trembles, by 0.15 W; at once while the force returns from an interruption
+/// and up to half a second after. All this together is at most 1 J and 0.3 W. For a glove that tells the delay of its
+/// link, the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an
+/// oscillation that gives more than 20 mW and is faster than that, and a hand at rest feels no jump. Joint torques are
+/// not counted. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002, for the observer;
+/// Franken et al., Bilateral telemanipulation with time delays: a two-layer approach combining passivity and
+/// transparency, 2011, for the shrinking with the energy in a tank and for tanks that pass energy on.
 ///
 /// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that. Where it rises, the
 /// rise counts as if the hand had put it in, in the share of the wanted wrench that was exerted, by at most the largest

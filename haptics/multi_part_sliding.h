@@ -53,7 +53,8 @@ class MultiPartSliding final : public LoopSimulation {
  public:
   /// Nothing touches the riders of `chains` before they are placed. Throws std::invalid_argument for no part or more
   /// than kMaxParts parts, for a single part without obstacles and riders, for null pointers, for poses and numbers out
-  /// of range, and for overlaps at the start that `OverlapRule` refuses. Bodies closer than the rounding of their
+  /// of range, for parts so far from the origin (10⁷ m or more) that rounding exceeds the minimum clearance, and for
+  /// overlaps at the start that `OverlapRule` refuses. Bodies closer than the rounding of their
   /// coordinates count as touching.
   MultiPartSliding(std::vector<Obstacle> obstacles, const std::vector<HeldPart>& parts, const SlidingRules& rules = {},
                    const std::vector<RiderChain>& chains = {});

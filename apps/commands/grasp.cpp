@@ -33,7 +33,7 @@
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/view/coupling_wrench.h>
+#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/grasping/grasp_simulation.h>
@@ -192,7 +192,7 @@ class GraspTables {
   void write_object(double time_s, std::size_t p) {
     const haptics::MultiPartSliding& parts = simulation_.parts();
     const haptics::SlidingResult& result = parts.result(p);
-    const haptics::Wrench wrench = wrench_about_reference(parts, p);
+    const haptics::Wrench wrench = contact_wrench(parts.result(p), parts.p_Vref(p));
     object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
     object_rows_->add(haptics::name_of(result.state));
     // Adding zero turns a negative zero into the plain one.

@@ -29,7 +29,8 @@ std::string in_millimetres(double scale, const std::string& option) {
 }
 
 std::string in_metres(double scale, const std::string& option) {
-  return ": in metres already? " + option + rounded_text(scale / kMillimetre);
+  const double larger = scale / kMillimetre;
+  return (larger == 1.0 ? ": in metres already? " : ": too small a scale? ") + option + rounded_text(larger);
 }
 
 /// What is doubtful in the size of an object alone; empty if nothing is.

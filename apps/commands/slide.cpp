@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -71,8 +72,8 @@ constexpr const char* kSlideFooter =
     "\n"
     "Moving objects: an object of the scene with 'moves: FILE' (at most three objects) follows the trajectory in this\n"
     "file, whose times refer to the same clock as --trajectory. Before the first row and after the last row of its\n"
-    "file, the object stands still. The object pushes the part out of its way, waits where the part cannot move out\n"
-    "of the way. --moving writes one row per object and millisecond.\n"
+    "file, the object stands still. The object pushes the part out of its way, and waits where the part cannot move\n"
+    "out of the way. --moving writes one row per object and millisecond.\n"
     "\n"
     "Assembly check, for several trajectories or with --summary or --report: one row per trajectory. A row says\n"
     "whether the part reached the goal of the scene (if the scene has no goal: the last row of the trajectory), and\n"
@@ -118,13 +119,13 @@ SlideCheck slide(const HapticScene& scene, FollowedTrajectory trajectory, const 
                  const SlideOptions& options, SlideReplay* replay) {
   SlideTables tables(options.tables, scene, check_options.method);
   const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
-  ProgressBar progress("sliding", ticks + 1, simulated_time);
+  ProgressBar progress("sliding", std::max<std::int64_t>(1, ticks), simulated_time);
   std::int64_t done = 0;
   SlideCheck check = check_slide(scene, trajectory, options.trajectories.front(), check_options,
                                  [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
                                    tables.write(time, sliding);
                                    if (replay != nullptr) replay->add(time, sliding);
-                                   progress.update(++done);
+                                   progress.update(done++);
                                  });
   tables.close();
   return check;
@@ -211,13 +212,14 @@ std::optional<std::size_t> most_telling(const std::vector<SlideCheck>& checks) {
 /// Leads the part along a trajectory once more, to look on.
 void watch_again(const HapticScene& scene, const std::string& file, SlideCheckOptions options, SlideReplay& replay) {
   FollowedTrajectory trajectory(file);
-  ProgressBar progress("watching " + file, trajectory.duration() / std::chrono::milliseconds(1) + 1, simulated_time);
+  const std::int64_t ticks = trajectory.duration() / std::chrono::milliseconds(1);
+  ProgressBar progress("watching " + file, std::max<std::int64_t>(1, ticks), simulated_time);
   std::int64_t done = 0;
   options.needs_summary = options.needs_curve = false;
   check_slide(scene, trajectory, file, options,
               [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
                 replay.add(time, sliding);
-                progress.update(++done);
+                progress.update(done++);
               });
 }
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include <glissade/apps/commands/slide_tables.h>
-#include <glissade/apps/view/coupling_wrench.h>
+#include <glissade/apps/view/contact_wrench.h>
 
 namespace glissade::apps {
 namespace {
@@ -23,7 +23,7 @@ std::vector<std::string> moving_columns() {
 void add_motion_row(CsvWriter& out, double time_s, haptics::SlidingMethod method,
                     const haptics::SlidingSimulation& sliding) {
   const haptics::SlidingResult& result = sliding.result();
-  const haptics::Wrench wrench = wrench_about_reference(sliding);
+  const haptics::Wrench wrench = contact_wrench(sliding.result(), sliding.part().p_Vref());
   out.add(time_s).add(result.X_WG).add(result.X_WV);
   // Adding zero turns a negative zero into the plain one.
   for (int i = 0; i < 3; ++i)

@@ -29,7 +29,8 @@ geometry::TimedPose timed_pose(const std::vector<double>& row, const std::string
   const std::chrono::nanoseconds time = time_of(row[0], where);
   if (before && time <= *before) {
     throw std::invalid_argument(where + ": column t_s: the time " + format_number(row[0]) + " does not rise above " +
-                                format_number(std::chrono::duration<double>(*before).count()) + " of the row before");
+                                format_number(std::chrono::duration<double>(*before).count()) +
+                                " of the row before (to the nanosecond)");
   }
   return {time, pose_from_row(row, 1, where)};
 }

@@ -87,13 +87,12 @@ std::int64_t SessionSummary::colliding_poses() const {
   return sum;
 }
 
-SessionSummary summarize(const Session& session, const HapticScene& scene,
-                         std::optional<std::chrono::milliseconds> patience) {
+SessionSummary summarize(const Session& session, const HapticScene& scene, const std::function<bool()>& should_end) {
   const SessionRecorder& samples = *session.samples;
   SessionSummary summary;
   summary.ticks = session.ticks;
   summary.samples = static_cast<std::int64_t>(samples.size());
-  const SessionCheck check(samples, scene, session.hand_models, patience);
+  const SessionCheck check(samples, scene, session.hand_models, should_end);
   summary.checked = check.checked_ticks();
   for (std::size_t p = 0; p < samples.parts(); ++p)
     summary.parts.push_back(summarize_part(samples, p, scene, check));

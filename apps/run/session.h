@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -89,10 +90,10 @@ struct SessionSummary {
   std::int64_t colliding_poses() const;
 };
 
-/// Computes the summary. Checks the visible poses of all parts and hands by brute force, with a `patience` those that
-/// it can check within it (`SessionCheck`).
+/// Computes the summary. Checks the visible poses of all parts and hands by brute force, until
+/// `should_end` (`SessionCheck`).
 SessionSummary summarize(const Session& session, const HapticScene& scene,
-                         std::optional<std::chrono::milliseconds> patience = {});
+                         const std::function<bool()>& should_end = {});
 
 /// The summary as one JSON object; figures that an offline run does not have are null.
 nlohmann::json to_json(const SessionSummary& summary, const Session& session);

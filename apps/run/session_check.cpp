@@ -18,6 +18,8 @@ constexpr double kDeeper_m = 1e-6;
 /// Metres: parts that are less apart may count as touching.
 constexpr double kTouching_m = 1e-7;
 
+constexpr std::size_t kStrides = 64;  // in which the run is checked
+
 struct StartingPart {
   std::shared_ptr<const haptics::SlidingPart> part_V;
   Eigen::Isometry3d X_WV;
@@ -72,7 +74,7 @@ std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& s
 }  // namespace
 
 SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& scene, const HandModels& hands,
-                           std::optional<std::chrono::milliseconds> patience)
+                           const std::function<bool()>& should_end)
     : samples_(samples),
       obstacles_(scene.placed_obstacles),
       colliding_of_parts_(samples.parts(), 0),
@@ -82,18 +84,18 @@ SessionCheck::SessionCheck(const SessionRecorder& samples, const HapticScene& sc
     meshes_.push_back(mesh_to_check(scene, parts, part));
   for (const auto& mesh : meshes_)
     parts_.emplace_back(std::vector<reference::PlacedMesh>{{mesh}});
-  const auto end = std::chrono::steady_clock::now() + patience.value_or(std::chrono::milliseconds(0));
-  const std::size_t strides = patience ? 64 : 1;
-  for (std::size_t first = 0; first < std::min(strides, samples.size()); ++first) {
-    if (first > 0 && std::chrono::steady_clock::now() >= end) return;
+  ProgressBar progress("checking poses", static_cast<std::int64_t>(samples.size()));
+  for (std::size_t first = 0; first < std::min(kStrides, samples.size()); ++first) {
+    if (first > 0 && should_end && should_end()) return;
     Mask chosen(samples.size(), 0);
-    for (std::size_t i = first; i < samples.size(); i += strides)
+    for (std::size_t i = first; i < samples.size(); i += kStrides)
       chosen[i] = 1;
     for (std::size_t p = 0; p < samples.parts(); ++p)
       check_part(p, chosen);
     for (std::size_t h = 0; h < samples.hands(); ++h)
       if (hands[h]) check_hand(h, *hands[h], chosen);
     checked_ticks_ += std::count(chosen.begin(), chosen.end(), 1);
+    progress.update(checked_ticks_);
   }
 }
 
@@ -148,9 +150,7 @@ void SessionCheck::check(const reference::GridCheck& obstacles, const geometry::
     pose_of_tick[i] = poses.size() - 1;
   }
   if (poses.empty()) return;
-  ProgressBar progress("checking poses", static_cast<std::int64_t>(poses.size()));
-  const std::vector<char> of_pose =
-      obstacles.collisions(mesh, poses, [&](std::size_t done) { progress.update(static_cast<std::int64_t>(done)); });
+  const std::vector<char> of_pose = obstacles.collisions(mesh, poses);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
     if (counts[i] != 0) collides[i] = static_cast<char>(collides[i] | of_pose[pose_of_tick[i]]);
   }

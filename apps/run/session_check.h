@@ -2,11 +2,10 @@
 
 /// The check of a run afterwards, independent of the DOP-trees: does any pose that was shown collide?
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include <glissade/apps/run/session_recorder.h>
@@ -18,16 +17,16 @@ namespace glissade::apps {
 
 using HandModels = std::vector<std::shared_ptr<const grasping::HandModel>>;
 
-/// Checks the visible poses of parts and hands in the kept ticks by brute force, with progress bars. A body at rest
+/// Checks the visible poses of parts and hands in the kept ticks by brute force, with a progress bar. A body at rest
 /// repeats its pose, which is checked once.
 class SessionCheck {
  public:
-  /// `hands` are the models of the hands, null for one without fingers in the simulation. With a `patience`, the check
-  /// ends after about so long; what it has checked by then is spread over the whole run.
+  /// `hands` are the models of the hands, null for one without fingers in the simulation. The check ends early
+  /// when `should_end` says so; what it has checked by then is spread over the whole run.
   SessionCheck(const SessionRecorder& samples, const HapticScene& scene, const HandModels& hands,
-               std::optional<std::chrono::milliseconds> patience = {});
+               const std::function<bool()>& should_end = {});
 
-  /// The number of ticks that were checked: all, unless patience ended.
+  /// The number of ticks that were checked: all, unless the check ended early.
   std::int64_t checked_ticks() const { return checked_ticks_; }
   /// Of these, the ticks in which the part collides with an obstacle or with a part of lower number.
   std::int64_t colliding_ticks_of_part(std::size_t part) const { return colliding_of_parts_[part]; }

@@ -382,11 +382,15 @@ std::string real_time_warning(const Session& session) {
 SessionSummary conclude(const Session& session, const HapticScene& scene, const std::string& title, bool as_json,
                         bool verbose, const std::string& report_folder) {
   constexpr std::chrono::milliseconds kAfterInterrupt{500};
-  const bool is_interrupted = StopSignal::requested();
-  const SessionSummary summary =
-      summarize(session, scene, is_interrupted ? std::optional(kAfterInterrupt) : std::nullopt);
+  std::optional<std::chrono::steady_clock::time_point> interrupted;
+  const SessionSummary summary = summarize(session, scene, [&] {
+    if (!StopSignal::requested()) return false;
+    const auto now = std::chrono::steady_clock::now();
+    if (!interrupted) interrupted = now;
+    return now - *interrupted >= kAfterInterrupt;
+  });
   if (summary.checked < summary.samples)
-    say("glissade: the run was interrupted: the poses of " + std::to_string(summary.checked) + " of " +
+    say("glissade: interrupted: the poses of " + std::to_string(summary.checked) + " of " +
         std::to_string(summary.samples) + " ticks were checked for collisions");
   if (as_json) {
     std::cout << to_json(summary, session).dump(2) << '\n';

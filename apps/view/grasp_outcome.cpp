@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include <glissade/apps/text.h>
@@ -44,7 +45,8 @@ void GraspOutcome::add(double time_s, const std::vector<std::optional<grasping::
 }
 
 std::vector<std::pair<std::string, std::string>> GraspOutcome::rows() const {
-  std::vector<std::pair<std::string, std::string>> rows{{"duration", seconds_text(ticks_)}};
+  std::vector<std::pair<std::string, std::string>> rows{
+      {"duration", seconds_text(std::max<std::int64_t>(1, ticks_) - 1)}};
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     const Hand& hand = hands_[h];
     std::string text = hand.grasps == 0 ? "holds nothing: " + hand.missed.text()

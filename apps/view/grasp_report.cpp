@@ -5,7 +5,7 @@
 #include <utility>
 
 #include <glissade/apps/text.h>
-#include <glissade/apps/view/coupling_wrench.h>
+#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/apps/view/session_view.h>
 
@@ -67,7 +67,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
     parts_.add(time_s, p, state.parts[p]);
     if (p >= scene_.parts.size()) continue;  // moves on its own
-    const haptics::Wrench wrench = wrench_about_reference(simulation_.parts(), p);
+    const haptics::Wrench wrench = contact_wrench(simulation_.parts().result(p), simulation_.parts().p_Vref(p));
     forces_[p].add(time_s, wrench.f);
     torques_[p].add(time_s, wrench.t);
     others_X_WB_.clear();

@@ -1,6 +1,6 @@
 #include <cstdint>
 
-#include <glissade/apps/view/coupling_wrench.h>
+#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/apps/view/slide_replay.h>
 
@@ -28,7 +28,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;
   }
-  const haptics::Wrench wrench = wrench_about_reference(sliding);
+  const haptics::Wrench wrench = contact_wrench(sliding.result(), sliding.part().p_Vref());
   state.hands[0].part = 0;
   state.hands[0].force_W = wrench.f;
   state.hands[0].torque_V_W = wrench.t;
@@ -42,7 +42,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
 void SlideReplay::finish(Report& report, const std::string& of) {
   report.plots.insert(report.plots.begin(),
                       {force_.plot("Force on the hand" + of, "force [N]"),
-                       torque_.plot("Torque on the hand about the origin of the part" + of, "torque [Nm]")});
+                       torque_.plot("Torque on the hand about the reference point of the part" + of, "torque [Nm]")});
   part_.finish(report);
   report.replay = maker_.finish();
 }

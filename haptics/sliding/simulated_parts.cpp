@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -76,12 +77,24 @@ Eigen::Isometry3d start_pose(const HeldPart& part) {
   return *X_WV;
 }
 
+/// So far from the origin, no step could be proven.
+void check_rounding(const std::string& part_name, double margin, double certain_distance) {
+  if (certain_distance <= kMinClearanceOfMargin * margin) return;
+  std::ostringstream sentence;
+  sentence << part_name << " is too far from the origin for its margin of " << margin
+           << " m: there, a distance is certain to " << certain_distance << " m only";
+  throw std::invalid_argument(sentence.str());
+}
+
 std::vector<Seat> seats_at_start(const std::vector<Obstacle>& obstacles, const std::vector<HeldPart>& parts,
                                  const std::vector<RiderChain>& chains, const SlidingRules& rules) {
   ContactScene scene = make_scene(obstacles, parts, chains, rules);
   for (std::size_t p = 0; p < parts.size(); ++p)
     scene.place(p, start_pose(parts[p]));
-  return find_seats(scene, parts, rules.overlap, kTouching * MovingBodies(scene).certain_distance());
+  const double certain = MovingBodies(scene).certain_distance();
+  for (const HeldPart& part : parts)
+    check_rounding(part.name, rules.margin.value_or(default_margin(*part.part_V)), certain);
+  return find_seats(scene, parts, rules.overlap, kTouching * certain);
 }
 
 /// The caller's chains, and one for each inset.

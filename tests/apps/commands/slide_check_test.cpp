@@ -181,7 +181,7 @@ TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
   ASSERT_EQ(check({below}, {"--report", folder.path("page")}).exit_code, 0);
   const std::string page = read_text_file(folder.path("page/index.html"));
   for (const char* title :
-       {"Force on the hand", "Torque on the hand about the origin of the part",
+       {"Force on the hand", "Torque on the hand about the reference point of the part",
         "Lag of the visible parts behind their ghosts", "Angle between the visible parts and their ghosts",
         "Contacts that push", "Clearance of the visible parts, up to 2 mm", "States of the parts"})
     EXPECT_THAT(page, testing::HasSubstr("<h2>" + std::string(title) + "</h2>"));

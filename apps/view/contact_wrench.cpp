@@ -1,0 +1,16 @@
+#include <glissade/apps/view/contact_wrench.h>
+
+namespace glissade::apps {
+
+haptics::Wrench contact_wrench(const haptics::SlidingResult& result, const Eigen::Vector3d& p_Vref) {
+  const Eigen::Vector3d p_Wref = result.X_WV_of_contacts * p_Vref;
+  haptics::Wrench sum;
+  for (const haptics::Contact& contact : result.contacts) {
+    const Eigen::Vector3d f_W = contact.force * contact.n_W + contact.friction_W;
+    sum.f += f_W;
+    sum.t += (contact.p_W - p_Wref).cross(f_W);
+  }
+  return sum;
+}
+
+}  // namespace glissade::apps
