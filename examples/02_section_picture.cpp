@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <glissade/contact/sliding.h>
 #include <glissade/geometry/triangle_mesh.h>
-#include <glissade/haptics/sliding.h>
 #include <glissade/shapes/car_door_parts.h>
 
 namespace {
@@ -75,17 +75,17 @@ int main(int argc, char** argv) {
   const std::vector<geometry::TriangleMesh> door{
       shapes::make_door_inner_panel(kDetail), shapes::make_door_outer_panel(kDetail),
       shapes::make_door_impact_tube(kDetail), shapes::make_door_hose(kDetail)};
-  std::vector<haptics::Obstacle> obstacles;
+  std::vector<contact::Obstacle> obstacles;
   for (const geometry::TriangleMesh& mesh : door)
-    obstacles.push_back({std::make_shared<haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(mesh))});
-  const auto motor_V = std::make_shared<haptics::SlidingPart>(
+    obstacles.push_back({std::make_shared<contact::ContactBody>(std::make_shared<const geometry::TriangleMesh>(mesh))});
+  const auto motor_V = std::make_shared<contact::SlidingPart>(
       std::make_shared<const geometry::TriangleMesh>(shapes::make_window_motor(kDetail)));
   const std::vector<Eigen::Isometry3d> poses_WG = read_poses(argv[1]);
 
   std::ofstream svg(argv[2]);
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"-330 -320 560 640\" font-family=\"sans-serif\" "
          "font-size=\"13\">\n<rect x=\"-330\" y=\"-320\" width=\"560\" height=\"640\" fill=\"#ffffff\"/>\n";
-  haptics::Sliding sliding(obstacles, motor_V, poses_WG.at(0));
+  contact::Sliding sliding(obstacles, motor_V, poses_WG.at(0));
   std::ostringstream track;
   for (std::size_t i = 0; i < poses_WG.size(); ++i) {
     const Eigen::Isometry3d& X_WV = sliding.advance(poses_WG[i]).X_WV;

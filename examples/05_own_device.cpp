@@ -5,11 +5,12 @@
 #include <iostream>
 
 #include <glissade/collision/collision_pipeline.h>
+#include <glissade/contact/sliding.h>
+#include <glissade/contact/spring.h>
+#include <glissade/contact/tracked_contacts.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/haptics/haptic_server.h>
-#include <glissade/haptics/sliding.h>
-#include <glissade/haptics/tracked_contacts.h>
 
 using namespace glissade;
 
@@ -36,7 +37,9 @@ class MyGlove final : public devices::GloveDevice {
                                         .max_force = 20.0,
                                         .max_torque = 2.0,
                                         .max_stiffness = 1000.0,
-                                        .max_rotational_stiffness = 5.0};
+                                        .max_rotational_stiffness = 5.0,
+                                        .damping = 5.0,               // of the device itself: the more, the
+                                        .rotational_damping = 0.02};  // stiffer a link or a long part may be
   devices::GloveState state_;
   double greatest_ = 0.0;
 };
@@ -46,13 +49,13 @@ int main(int argc, char** argv) try {
     std::cerr << "usage: own_device PART.stl, in millimetres\n";
     return 2;
   }
-  const auto part_V = haptics::load_part(argv[1], 1e-3);
-  const auto block = std::make_shared<haptics::ContactBody>(
+  const auto part_V = contact::load_part(argv[1], 1e-3);
+  const auto block = std::make_shared<contact::ContactBody>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.02}, 300)));
 
   // Twenty objects: nineteen blocks side by side, their upper faces at z = 0, and the part 2 mm above the first.
   collision::World world(20);
-  std::vector<haptics::Obstacle> obstacles;
+  std::vector<contact::Obstacle> obstacles;
   for (int i = 0; i < 19; ++i) {
     obstacles.push_back({.body = block, .X_WO = at(0.11 * i, 0.0, -0.01), .name = "block " + std::to_string(i)});
     world.add({.tree = {block, &block->tree}, .X_WO = obstacles.back().X_WO});
@@ -63,19 +66,19 @@ int main(int argc, char** argv) try {
   std::cout << pipeline.step(0.005).meeting.size() << " pair of objects is closer than 5 mm\n" << std::fixed;
 
   // Slide: the ghost goes 2 mm into the block and along it; the visible part stays on the surface.
-  haptics::Sliding sliding(obstacles, part_V, at(0.0, 0.0, 0.002));
-  haptics::ContactTracker tracker(sliding.margin());
+  contact::Sliding sliding(obstacles, part_V, at(0.0, 0.0, 0.002));
+  contact::ContactTracker tracker(sliding.margin());
   for (int ms = 1; ms <= 200; ++ms)
     sliding.advance(at(2e-5 * ms, 0.0, std::max(-0.002, 0.002 - 1e-4 * ms)));
-  for (const haptics::TrackedContact& contact : tracker.update(sliding.result()))
+  for (const contact::TrackedContact& contact : tracker.update(sliding.result()))
     std::cout << "contact " << contact.id << " with "
               << obstacles[static_cast<std::size_t>(contact.contact.obstacle)].name << ": " << std::setprecision(2)
               << contact.contact.force << " N\n";
-  const haptics::Wrench wrench = haptics::spring_wrench(sliding.stiffness(), sliding.error());
+  const contact::Wrench wrench = contact::spring_wrench(sliding.stiffness(), sliding.error());
   std::cout << "wrench on the hand: " << wrench.f.transpose() << " N, " << wrench.t.transpose() << " Nm\n";
   MyGlove glove;  // the same part on the device, in real time for two seconds
-  haptics::MultiPartSliding live(obstacles, {{.part_V = part_V, .X_WV_start = at(0.0, 0.0, 0.002)}},
-                                 haptics::real_time_rules());
+  contact::MultiPartSliding live(obstacles, {{.part_V = part_V, .X_WV_start = at(0.0, 0.0, 0.002)}},
+                                 contact::real_time_rules());
   haptics::HapticServer server({{&glove}}, live, clock, [](const devices::HapticState&) {}, {.ticks = 2000});
   while (!server.is_done())
     clock.sleep_until(clock.now() + std::chrono::milliseconds(10));

@@ -13,8 +13,8 @@ int main() {
   using namespace glissade;
   const auto at = [](double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); };
   const auto mesh = [](const geometry::TriangleMesh& m) { return std::make_shared<geometry::TriangleMesh>(m); };
-  const auto ball_V = std::make_shared<haptics::SlidingPart>(mesh(geometry::make_sphere(0.035, 2000)));
-  const auto table = std::make_shared<haptics::ContactBody>(mesh(geometry::make_box({0.6, 0.6, 0.02}, 200)));
+  const auto ball_V = std::make_shared<contact::SlidingPart>(mesh(geometry::make_sphere(0.035, 2000)));
+  const auto table = std::make_shared<contact::ContactBody>(mesh(geometry::make_box({0.6, 0.6, 0.02}, 200)));
   const auto hand = std::make_shared<const grasping::HandModel>(grasping::make_hand());
 
   // The ball lies before the palm of a hand with its root at the origin, and just above a table.

@@ -6,9 +6,9 @@
 #include <optional>
 #include <stdexcept>
 
+#include <glissade/contact/certified_bodies.h>
 #include <glissade/geometry/rigid_pose.h>
 #include <glissade/grasping/clasp.h>
-#include <glissade/haptics/certified_bodies.h>
 
 #include "clasp/chain_step.h"
 #include "clasp/chain_step_finder.h"
@@ -21,11 +21,11 @@ constexpr double kDeeper_m = 5e-6;  // a target that is so much deeper lies deep
 // While the hand moves or rests, one flex value tries to go on alone in so many calls.
 constexpr int kCallsOfOne = 8;
 
-std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_of(const KinematicChain& chain,
+std::vector<std::shared_ptr<const contact::SlidingPart>> bodies_of(const KinematicChain& chain,
                                                                    std::span<const std::size_t> links) {
-  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
+  std::vector<std::shared_ptr<const contact::SlidingPart>> bodies;
   for (const std::size_t link : links)
-    bodies.push_back(std::make_shared<const haptics::SlidingPart>(chain.links()[link].mesh));
+    bodies.push_back(std::make_shared<const contact::SlidingPart>(chain.links()[link].mesh));
   return bodies;
 }
 
@@ -44,8 +44,8 @@ std::string_view name_of(ClaspState state) {
 
 class Clasp::Iteration {
  public:
-  Iteration(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
-            std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules)
+  Iteration(std::shared_ptr<const KinematicChain> chain, std::vector<contact::Obstacle> fixed,
+            std::vector<std::shared_ptr<const contact::SlidingPart>> objects, const ClaspRules& rules)
       : chain_(std::move(chain)),
         rules_(rules),
         movers_(links_that_touch(checked(chain_))),
@@ -66,7 +66,7 @@ class Clasp::Iteration {
   }
 
   const KinematicChain& chain() const { return *chain_; }
-  const std::vector<std::shared_ptr<const haptics::SlidingPart>>& bodies() const { return link_bodies_; }
+  const std::vector<std::shared_ptr<const contact::SlidingPart>>& bodies() const { return link_bodies_; }
   ClaspState state() const { return state_; }
   const Posture& posture() const { return posture_; }
   const Posture& target() const { return target_; }
@@ -189,7 +189,7 @@ class Clasp::Iteration {
     std::fill(touching_.begin(), touching_.end(), char{0});
     link_contacts_.clear();
     chain_->poses(target_.X_WR, target_.values, X_WL_target_);
-    for (const haptics::Contact& contact : finder_.contacts()) {
+    for (const contact::Contact& contact : finder_.contacts()) {
       if (contact.gap > std::max(rules_.touching, contact.margin + rules_.touching - rules_.margin)) continue;
       const std::size_t link = movers_[static_cast<std::size_t>(contact.part)];
       const Eigen::Vector3d p_target_W = X_WL_target_[link] * (X_WL_[link].inverse(Eigen::Isometry) * contact.p_W);
@@ -203,8 +203,8 @@ class Clasp::Iteration {
   std::shared_ptr<const KinematicChain> chain_;
   ClaspRules rules_;
   std::vector<std::size_t> movers_;                                       // links with meshes
-  std::vector<std::shared_ptr<const haptics::SlidingPart>> link_bodies_;  // of the movers
-  haptics::CertifiedBodies bodies_;
+  std::vector<std::shared_ptr<const contact::SlidingPart>> link_bodies_;  // of the movers
+  contact::CertifiedBodies bodies_;
   ChainStepFinder finder_;
   ClaspState state_ = ClaspState::kWaiting;
   bool was_free_ = false;  // when the track was lost
@@ -223,8 +223,8 @@ class Clasp::Iteration {
   std::vector<LinkContact> link_contacts_;
 };
 
-Clasp::Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
-             std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules)
+Clasp::Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<contact::Obstacle> fixed,
+             std::vector<std::shared_ptr<const contact::SlidingPart>> objects, const ClaspRules& rules)
     : iteration_(std::make_unique<Iteration>(std::move(chain), std::move(fixed), std::move(objects), rules)) {}
 
 Clasp::Clasp(Clasp&&) noexcept = default;
@@ -235,7 +235,7 @@ const KinematicChain& Clasp::chain() const {
   return iteration_->chain();
 }
 
-const std::vector<std::shared_ptr<const haptics::SlidingPart>>& Clasp::bodies() const {
+const std::vector<std::shared_ptr<const contact::SlidingPart>>& Clasp::bodies() const {
   return iteration_->bodies();
 }
 

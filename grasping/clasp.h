@@ -11,9 +11,9 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/contact/contact_body.h>
+#include <glissade/contact/sliding_result.h>
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/haptics/contact_body.h>
-#include <glissade/haptics/sliding_result.h>
 
 namespace glissade::grasping {
 
@@ -35,7 +35,7 @@ struct ClaspRules {
   double touching = 0.1e-3;
   /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
   int most_steps = 8;
-  /// Work after which a call takes no further step, in the unit of `haptics::SlidingRules::work_budget`: the next call
+  /// Work after which a call takes no further step, in the unit of `contact::SlidingRules::work_budget`: the next call
   /// goes on from there. A step is never divided, and where there was none, one flex value may still try to go on
   /// alone. Positive; none: no limit.
   std::optional<std::int64_t> work_budget{};
@@ -44,7 +44,7 @@ struct ClaspRules {
 /// A link near an object.
 struct LinkContact {
   std::size_t link = 0;
-  haptics::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
+  contact::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
   double depth = 0.0;        ///< metres, to first order: how far beyond the contact the target of the link lies
 };
 
@@ -56,16 +56,16 @@ class Clasp {
  public:
   /// `fixed` are bodies that never move; `objects` stand still during a call, and may be placed elsewhere between two.
   /// The links of the chain may touch each other. Throws std::invalid_argument for a null chain or one without meshes,
-  /// for rules out of range, and as `haptics::CertifiedBodies` does. Cost: the trees of the links.
-  Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<haptics::Obstacle> fixed,
-        std::vector<std::shared_ptr<const haptics::SlidingPart>> objects, const ClaspRules& rules = {});
+  /// for rules out of range, and as `contact::CertifiedBodies` does. Cost: the trees of the links.
+  Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<contact::Obstacle> fixed,
+        std::vector<std::shared_ptr<const contact::SlidingPart>> objects, const ClaspRules& rules = {});
   Clasp(Clasp&&) noexcept;
   Clasp& operator=(Clasp&&) noexcept;
   ~Clasp();
 
   const KinematicChain& chain() const;
   /// The links with meshes, in their order.
-  const std::vector<std::shared_ptr<const haptics::SlidingPart>>& bodies() const;
+  const std::vector<std::shared_ptr<const contact::SlidingPart>>& bodies() const;
 
   /// Places an object. If the chain is no longer free there, the clasp waits.
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);

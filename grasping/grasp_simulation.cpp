@@ -23,15 +23,15 @@ ClaspRules rules_of_hands(const GraspRules& rules) {
   return of_hands;
 }
 
-std::vector<haptics::Metaphor> metaphors_of(const std::vector<haptics::HeldPart>& parts) {
-  std::vector<haptics::Metaphor> metaphors;
-  for (const haptics::HeldPart& part : parts)
+std::vector<contact::Metaphor> metaphors_of(const std::vector<contact::HeldPart>& parts) {
+  std::vector<contact::Metaphor> metaphors;
+  for (const contact::HeldPart& part : parts)
     metaphors.push_back(part.metaphor);
   return metaphors;
 }
 
-std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hands, double margin) {
-  std::vector<haptics::RiderChain> chains;
+std::vector<contact::RiderChain> chains_of(const std::vector<GraspingHand>& hands, double margin) {
+  std::vector<contact::RiderChain> chains;
   for (const GraspingHand& hand : hands)
     chains.push_back({hand.clasp().bodies(), margin});
   return chains;
@@ -41,7 +41,7 @@ std::vector<haptics::RiderChain> chains_of(const std::vector<GraspingHand>& hand
 
 class GraspSimulation::Life {
  public:
-  Life(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
+  Life(const std::vector<contact::Obstacle>& fixed, const std::vector<contact::HeldPart>& parts,
        const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
       : up_W_(rules.up_W),
         hands_(make_hands(hands, fixed, parts, rules_of_hands(rules))),
@@ -66,7 +66,7 @@ class GraspSimulation::Life {
     GLISSADE_ASSERT(number < hands_.size());
     return hands_[number];
   }
-  const haptics::MultiPartSliding& parts() const { return parts_; }
+  const contact::MultiPartSliding& parts() const { return parts_; }
 
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds) {
     GLISSADE_ASSERT(targets.size() == hands_.size());
@@ -289,7 +289,7 @@ class GraspSimulation::Life {
 
   Eigen::Vector3d up_W_;
   std::vector<GraspingHand> hands_;
-  haptics::MultiPartSliding parts_;
+  contact::MultiPartSliding parts_;
   std::vector<Eigen::Isometry3d> X_WG_;  // of each part
   LooseParts loose_parts_;
   double waited_ms_ = 0.0;  // since the hands moved
@@ -298,8 +298,8 @@ class GraspSimulation::Life {
   FingerRows rows_;
 };
 
-GraspSimulation::GraspSimulation(const std::vector<haptics::Obstacle>& fixed,
-                                 const std::vector<haptics::HeldPart>& parts,
+GraspSimulation::GraspSimulation(const std::vector<contact::Obstacle>& fixed,
+                                 const std::vector<contact::HeldPart>& parts,
                                  const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules)
     : life_(std::make_unique<Life>(fixed, parts, hands, rules)) {}
 
@@ -343,7 +343,7 @@ std::optional<std::size_t> GraspSimulation::held_part(std::size_t hand) const {
   return life_->hand(hand).part();
 }
 
-const haptics::MultiPartSliding& GraspSimulation::parts() const {
+const contact::MultiPartSliding& GraspSimulation::parts() const {
   return life_->parts();
 }
 

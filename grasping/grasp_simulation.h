@@ -12,27 +12,27 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/contact_body.h>
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/loop_simulation.h>
-#include <glissade/haptics/multi_part_sliding.h>
-#include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::grasping {
 
 /// The work that a hand may do in a call, beside sliding contact with these rules: a sixteenth of its budget.
-constexpr std::optional<std::int64_t> work_of_hand(const haptics::SlidingRules& rules) {
+constexpr std::optional<std::int64_t> work_of_hand(const contact::SlidingRules& rules) {
   if (!rules.work_budget) return std::nullopt;
   return *rules.work_budget < 16 ? 1 : *rules.work_budget / 16;
 }
 
 struct GraspRules {
   ClaspRules clasp{};  ///< without a budget of work: `work_of_hand(sliding)`
-  haptics::SlidingRules sliding{};
+  contact::SlidingRules sliding{};
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
@@ -56,9 +56,9 @@ haptics::FingerHand finger_hand(const HandModel& hand);
 class GraspSimulation final : public haptics::LoopSimulation {
  public:
   /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
-  /// std::invalid_argument as `haptics::MultiPartSliding` and `Clasp` do, for a hand that is null, for more than
+  /// std::invalid_argument as `contact::MultiPartSliding` and `Clasp` do, for a hand that is null, for more than
   /// `haptics::kMaxHands`, and for an `up_W` that is no unit vector (to 1e-6).
-  GraspSimulation(const std::vector<haptics::Obstacle>& fixed, const std::vector<haptics::HeldPart>& parts,
+  GraspSimulation(const std::vector<contact::Obstacle>& fixed, const std::vector<contact::HeldPart>& parts,
                   const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules = {});
   GraspSimulation(GraspSimulation&&) noexcept;
   GraspSimulation& operator=(GraspSimulation&&) noexcept;
@@ -88,7 +88,7 @@ class GraspSimulation final : public haptics::LoopSimulation {
   std::optional<std::size_t> held_part(std::size_t hand) const;
 
   /// Poses, lag and contacts of the parts.
-  const haptics::MultiPartSliding& parts() const override;
+  const contact::MultiPartSliding& parts() const override;
 
   // In the haptic loop: in one only, and not together with the other `advance`.
   void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override;

@@ -13,11 +13,11 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/projection.h>
+#include <glissade/contact/sliding_result.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
-#include <glissade/geometry/displacement.h>
-#include <glissade/haptics/sliding_result.h>
-#include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::haptics {
 
@@ -29,32 +29,8 @@ inline constexpr std::size_t kMaxHands = 4;
 inline constexpr std::chrono::milliseconds kFullForce{20};
 inline constexpr std::chrono::milliseconds kForceless{100};
 
-/// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part: v is the translation of
-/// the part's reference point in metres, w the rotation vector about that point in radians.
-struct ConstraintRow {
-  Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
-  Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
-  double bound;       ///< metres; at most 0 if the constraint allows standing still
-
-  /// The left side of the constraint: the motion of the contact point along n, in metres.
-  double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
-};
-
-/// A constraint on the displacements of several parts: on the displacement of `part`, or for a contact of two parts, on
-/// that of `part` relative to `other`.
-struct CoupledRow : ConstraintRow {
-  std::int32_t part = 0;
-  std::int32_t other = -1;                            ///< −1 for an obstacle
-  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
-
-  double velocity(std::span<const geometry::Displacement> d) const {
-    const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
-    return other < 0 ? own : own - ConstraintRow{n, r_other, 0.0}.velocity(d[static_cast<std::size_t>(other)]);
-  }
-};
-
 /// The constraint of a contact, and how far it holds. The other side is an obstacle, unless another hand leads it.
-struct ContactRow : CoupledRow {
+struct ContactRow : contact::CoupledRow {
   double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
   double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
   bool pushes = false;    ///< it has a positive force
@@ -80,7 +56,7 @@ struct PartAnswer {
   /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a gap smaller than this. The set
   /// has a row for each contact found, except for the `dropped` ones.
   double reach = 0.0;
-  SlidingState state = SlidingState::kFree;
+  contact::SlidingState state = contact::SlidingState::kFree;
   std::int32_t pushing = 0;  ///< number of contacts that push, i.e. have a positive force
   std::int32_t dropped = 0;  ///< contacts without a row, beyond kMaxContactRows
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
@@ -124,10 +100,10 @@ struct ContactSet {
   std::int64_t sequence = 0;         ///< 1, 2, 3, … in the order of the sets; 0: no set yet
   std::chrono::nanoseconds time{0};  ///< time of the ghost poses that the set answers
   std::int32_t part_count = 1;
-  std::array<PartAnswer, kMaxParts> parts{};
+  std::array<PartAnswer, contact::kMaxParts> parts{};
   std::int32_t row_count = 0;  ///< rows in use
   /// Part by part; of each, first the pushing contacts, then the others, the nearest first.
-  std::array<ContactRow, kMaxParts * kMaxContactRows> row_array{};
+  std::array<ContactRow, contact::kMaxParts * kMaxContactRows> row_array{};
   std::array<HandAnswer, kMaxHands> hands{};  ///< of those with fingers
   // To display. A part's contacts with an object that lie in one plane are a patch.
   std::int32_t patch_count = 0;
@@ -157,8 +133,11 @@ struct GhostOfHand {
 /// All parts and hands at one time of the haptic clock.
 struct Ghosts {
   std::chrono::nanoseconds time{0};
-  std::array<GhostOfPart, kMaxParts> parts{};
+  std::array<GhostOfPart, contact::kMaxParts> parts{};
   std::array<GhostOfHand, kMaxHands> hands{};  ///< of those with fingers
 };
+
+/// The state as viewers get it.
+devices::PartState part_state_of(contact::SlidingState state) noexcept;
 
 }  // namespace glissade::haptics

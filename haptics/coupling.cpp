@@ -16,29 +16,19 @@ void validate_tick_period(std::chrono::nanoseconds period) {
                               std::to_string(period.count()) + " ns");
 }
 
-CouplingStiffness default_stiffness(double radius) {
-  constexpr double kTranslational_N_per_m = 1000.0;
-  return {kTranslational_N_per_m, kTranslational_N_per_m * radius * radius};
-}
-
-void validate(const CouplingStiffness& stiffness, const std::string& part_name) {
-  const auto is_stiffness = [](double k) { return k > 0.0 && std::isfinite(k); };
-  if (is_stiffness(stiffness.translational) && is_stiffness(stiffness.rotational)) return;
-  throw std::invalid_argument("the stiffness with which " + part_name + " is held is not a positive number");
-}
-
-CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
-                                    std::chrono::nanoseconds delay) noexcept {
+contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
+                                             std::chrono::nanoseconds delay) noexcept {
   const double lag = lag_of(device, period, delay);
-  CouplingStiffness limit{passive_limit(device, device.damping, device.max_stiffness, lag),
-                          passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag)};
+  contact::CouplingStiffness limit{
+      passive_limit(device, device.damping, device.max_stiffness, lag),
+      passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag)};
   if (device.friction > 0.0 && device.resolution > 0.0) {
     limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
   }
   return limit;
 }
 
-Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
+Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                       std::chrono::nanoseconds period, std::chrono::nanoseconds delay) {
   if (!(device.max_stiffness > 0.0 && device.max_rotational_stiffness > 0.0)) {
     throw std::invalid_argument("device '" + device.name +
@@ -47,7 +37,7 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const CouplingSti
   return coupling_within_limits(device, wanted, period, delay);
 }
 
-Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const CouplingStiffness& wanted,
+Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever) noexcept {
   constexpr double kDampingTime_s = 5e-3;
@@ -58,9 +48,9 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const C
   };
   const LeverLimit limit{passive_limit(device, device.damping, device.max_stiffness, lag),
                          passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag), lever};
-  const CouplingStiffness passive = passive_stiffness(device, period, delay);
+  const contact::CouplingStiffness passive = passive_stiffness(device, period, delay);
   Coupling coupling;
-  CouplingStiffness& K = coupling.stiffness;
+  contact::CouplingStiffness& K = coupling.stiffness;
   K.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});
   K.rotational = std::min({wanted.rotational, device.max_rotational_stiffness, passive.rotational});
   const double stiffness_share = limit.share_of(K);
@@ -74,15 +64,7 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const C
   return coupling;
 }
 
-Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  return {wrench.f, wrench.t + (from - to).cross(wrench.f)};
-}
-
-Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error) {
-  return {-stiffness.translational * error.v, -stiffness.rotational * error.w};
-}
-
-Wrench damper_wrench(const CouplingDamping& damping, const Wrench& contacts, const Velocity& ghost) {
+contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts, const Velocity& ghost) {
   const auto along = [](const Eigen::Vector3d& push, double coefficient, const Eigen::Vector3d& velocity) {
     const double magnitude = push.norm();
     if (magnitude == 0.0) return Eigen::Vector3d(Eigen::Vector3d::Zero());

@@ -4,8 +4,9 @@
 #include <utility>
 
 #include <glissade/base/assert.h>
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/multi_part_sliding.h>
 
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
@@ -40,10 +41,10 @@ bool has_pose(const devices::GloveState& state) {
 
 }  // namespace
 
-std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding) {
+std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding) {
   std::vector<KernelPart> parts;
   for (std::size_t p = 0; p < sliding.part_count(); ++p) {
-    const SlidingPart& part = sliding.part(p);
+    const contact::SlidingPart& part = sliding.part(p);
     parts.push_back({part.p_Vref(), part.radius(), sliding.stiffness(p), sliding.is_scripted(p)});
   }
   return parts;
@@ -51,7 +52,7 @@ std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding) {
 
 /// A hand with its device.
 struct HapticKernel::Hand {
-  std::array<Coupling, kMaxParts> couplings{};  // one for each part that can be held
+  std::array<Coupling, contact::kMaxParts> couplings{};  // one for each part that can be held
   Coupling present{};
   double link_delay_s = 0.0;
   double lever_m = 0.0;  // from the hand to the reference point, smoothed
@@ -67,11 +68,11 @@ struct HapticKernel::Hand {
   int told_states = 0;
   std::int64_t told_sequence = -1;
   std::int64_t sequence = 0;
-  double owed = 0.0;   // J: work of the hand against force that was withheld, as far as it has not been lifted again
-  double lifts = 1.0;  // J, for which the hand may be lifted; many interruptions use it up
-  double taken = 0.0;  // `SafeCommand::taken` of the last command
-  Wrench pull;         // of other hands in the last command
-  Wrench solved;       // of the contacts when they last had a solution
+  double owed = 0.0;     // J: work of the hand against force that was withheld, as far as it has not been lifted again
+  double lifts = 1.0;    // J, for which the hand may be lifted; many interruptions use it up
+  double taken = 0.0;    // `SafeCommand::taken` of the last command
+  contact::Wrench pull;  // of other hands in the last command
+  contact::Wrench solved;  // of the contacts when they last had a solution
   std::optional<FingersOfHand> fingers;
 
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
@@ -110,11 +111,11 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
                            std::chrono::nanoseconds period)
     : parts_(std::move(parts)), period_(period) {
   check_count(hands.size(), kMaxHands, "hands");
-  check_count(parts_.size(), kMaxParts, "parts");
-  std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness;
+  check_count(parts_.size(), contact::kMaxParts, "parts");
+  std::vector<std::array<contact::CouplingStiffness, contact::kMaxParts>> stiffness;
   for (const KernelHand& hand : hands) {
-    std::array<Coupling, kMaxParts> couplings{};
-    std::array<CouplingStiffness, kMaxParts>& of_hand = stiffness.emplace_back();
+    std::array<Coupling, contact::kMaxParts> couplings{};
+    std::array<contact::CouplingStiffness, contact::kMaxParts>& of_hand = stiffness.emplace_back();
     for (std::size_t p = 0; p < parts_.size(); ++p) {
       couplings[p] = coupling_for(hand.device, parts_[p].stiffness, period);
       of_hand[p] = couplings[p].stiffness;
@@ -345,14 +346,14 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
                                           .from_elsewhere = lifted + share * contacts.from_movers});
   if (is_finite) {
     const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
-    const Wrench damping = damper_wrench(hand.present.damping, tick.contacts, ghost);
-    const Wrench on_hand = about_point(
+    const contact::Wrench damping = damper_wrench(hand.present.damping, tick.contacts, ghost);
+    const contact::Wrench on_hand = contact::about_point(
         {tick.contacts.f + damping.f + tick.pull.f, tick.contacts.t + damping.t + tick.pull.t}, p_Wref, p_WH);
     command.f_H_W = on_hand.f;
     command.t_H_W = on_hand.t;
   }
   if (hand.fingers) {
-    const Wrench load{tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t};
+    const contact::Wrench load{tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t};
     command.joint_torques = hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, lever, dt);
   }
   tick.command = hand.envelope.limit(command, state, now);

@@ -14,16 +14,20 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/spring.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/haptics/finger_forces.h>
 
+namespace glissade::contact {
+class MultiPartSliding;
+}
+
 namespace glissade::haptics {
 
 class ContactProjection;
-class MultiPartSliding;
 class HandLedger;
 class Holds;
 
@@ -31,12 +35,12 @@ class Holds;
 struct KernelPart {
   Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the part's own compliance point: `SlidingPart::p_Vref`
   double radius = 0.0;                               ///< metres, about it: `SlidingPart::radius`
-  CouplingStiffness stiffness{};                     ///< of the simulation
+  contact::CouplingStiffness stiffness{};            ///< of the simulation
   bool is_scripted = false;                          ///< no hand can hold it
 };
 
 /// The parts of a simulation.
-std::vector<KernelPart> kernel_parts(const MultiPartSliding& sliding);
+std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding);
 
 /// A hand in a device.
 struct KernelHand {
@@ -54,8 +58,8 @@ inline constexpr double kGripReach_m = 0.2;
 /// A hand after one tick.
 struct HandTick {
   std::optional<std::size_t> part;  ///< number of the part that it holds
-  Wrench contacts;                  ///< wrench of the contacts on the hand about the ghost's reference point
-  Wrench pull;                      ///< the same of other hands on the part
+  contact::Wrench contacts;         ///< wrench of the contacts on the hand about the ghost's reference point
+  contact::Wrench pull;             ///< the same of other hands on the part
   double contact_share = 1.0;       ///< of the force of the contacts: less than 1 where they are old or were left
   bool is_unsolved = false;         ///< the contacts have no solution, so their wrench goes towards zero
   /// Wrench of contacts, pull and damper about the hand root, through the safety envelope. Zero without a state.

@@ -5,6 +5,7 @@
 #include <sys/resource.h>
 
 #include <glissade/haptics/haptic_server.h>
+#include <glissade/haptics/loop_simulation.h>
 
 #include "loop/answer.h"
 #include "loop/kernel_hands.h"
@@ -32,13 +33,13 @@ std::int64_t page_faults_of_this_thread() noexcept {
 
 }  // namespace
 
-HapticServer::HapticServer(const std::vector<HandOfServer>& hands, LoopSimulation& simulation, realtime::Clock& clock,
+HapticServer::HapticServer(const std::vector<HandOfServer>& hands, SimulationInLoop simulation, realtime::Clock& clock,
                            Sink sink, const HapticServerOptions& options)
     : clock_(clock),
       sink_(std::move(sink)),
       options_(options),
-      kernel_(kernel_parts(simulation.parts()), kernel_hands(hands), options.period),
-      answerer_(std::make_unique<Answerer>(simulation)) {
+      kernel_(kernel_parts(simulation->parts()), kernel_hands(hands), options.period),
+      answerer_(std::make_unique<Answerer>(std::move(simulation))) {
   validate_tick_period(options.period);
   if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
   for (const HandOfServer& hand : hands)

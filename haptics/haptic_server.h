@@ -76,7 +76,7 @@ class HapticServer {
   /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
   /// simulation. Throws std::invalid_argument for a null device, an empty sink or a period out of bounds, and as the
   /// constructors of `HapticKernel` and `realtime::PeriodicThread` do.
-  HapticServer(const std::vector<HandOfServer>& hands, LoopSimulation& simulation, realtime::Clock& clock, Sink sink,
+  HapticServer(const std::vector<HandOfServer>& hands, SimulationInLoop simulation, realtime::Clock& clock, Sink sink,
                const HapticServerOptions& options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;

@@ -3,14 +3,14 @@
 /// The simulation's side of the haptic loop, as `HapticServer`, `run_offline` and `Replay` use it.
 
 #include <cstddef>
+#include <memory>
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/haptics/contact_set.h>
 
 namespace glissade::haptics {
-
-class MultiPartSliding;
 
 /// Parts that hands lead, and possibly hands with fingers that move among them. Deterministic: the same calls give the
 /// same bits. Not thread-safe.
@@ -18,7 +18,7 @@ class LoopSimulation {
  public:
   virtual ~LoopSimulation() = default;
 
-  virtual const MultiPartSliding& parts() const = 0;
+  virtual const contact::MultiPartSliding& parts() const = 0;
 
   /// Hands begin to hold the part, or hold it anew, with its ghost at X_WG; the last one lets go of it. As
   /// `MultiPartSliding::grasp` and `MultiPartSliding::release`.
@@ -36,6 +36,36 @@ class LoopSimulation {
   LoopSimulation() = default;
   LoopSimulation(const LoopSimulation&) = default;
   LoopSimulation& operator=(const LoopSimulation&) = default;
+};
+
+/// Parts in the loop; their hands have no fingers.
+class PartsInLoop final : public LoopSimulation {
+ public:
+  /// `parts` must outlive this object.
+  explicit PartsInLoop(contact::MultiPartSliding& parts) : parts_(parts) {}
+
+  const contact::MultiPartSliding& parts() const override { return parts_; }
+  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override { parts_.grasp(part, X_WG); }
+  void leave_part(std::size_t part) override { parts_.release(part); }
+  void advance(const Ghosts& ghosts, double milliseconds) override;
+  void tell_hands(ContactSet& /*set*/) const override {}
+
+ private:
+  contact::MultiPartSliding& parts_;
+};
+
+/// What a loop runs: a simulation of hands and parts, or of parts alone.
+class SimulationInLoop {
+ public:
+  /// What is passed must outlive this object.
+  SimulationInLoop(LoopSimulation& simulation) : simulation_(&simulation, [](LoopSimulation*) {}) {}
+  SimulationInLoop(contact::MultiPartSliding& parts) : simulation_(std::make_shared<PartsInLoop>(parts)) {}
+
+  LoopSimulation& operator*() const { return *simulation_; }
+  LoopSimulation* operator->() const { return simulation_.get(); }
+
+ private:
+  std::shared_ptr<LoopSimulation> simulation_;
 };
 
 }  // namespace glissade::haptics

@@ -43,7 +43,7 @@ struct OfflineRunOptions {
 /// poses of the previous tick. Hands, parts and couplings are as in `HapticServer`. Throws std::invalid_argument for a
 /// null glove, an empty sink or a period out of the bounds of `validate_tick_period`, and as the constructor of
 /// `HapticKernel` does.
-void run_offline(const std::vector<HandOffline>& hands, LoopSimulation& simulation, std::int64_t ticks,
+void run_offline(const std::vector<HandOffline>& hands, const SimulationInLoop& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options = {});
 
 /// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes. The
@@ -53,7 +53,7 @@ class Replay {
  public:
   /// A loop as the recorded one. Scene, rules, hands, period and `head` must be those of the recording. The simulation
   /// must outlive this object, and must not be used by others. Throws as the constructor of `HapticKernel` does.
-  Replay(LoopSimulation& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
+  Replay(const SimulationInLoop& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();
   Replay(const Replay&) = delete;

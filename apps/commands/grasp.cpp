@@ -36,6 +36,7 @@
 #include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/grasp_report.h>
+#include <glissade/contact/spring.h>
 #include <glissade/grasping/grasp_simulation.h>
 
 namespace glissade::apps {
@@ -190,11 +191,11 @@ class GraspTables {
   }
 
   void write_object(double time_s, std::size_t p) {
-    const haptics::MultiPartSliding& parts = simulation_.parts();
-    const haptics::SlidingResult& result = parts.result(p);
-    const haptics::Wrench wrench = contact_wrench(parts.result(p), parts.p_Vref(p));
+    const contact::MultiPartSliding& parts = simulation_.parts();
+    const contact::SlidingResult& result = parts.result(p);
+    const contact::Wrench wrench = contact_wrench(parts.result(p), parts.p_Vref(p));
     object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
-    object_rows_->add(haptics::name_of(result.state));
+    object_rows_->add(contact::name_of(result.state));
     // Adding zero turns a negative zero into the plain one.
     for (int i = 0; i < 3; ++i)
       object_rows_->add(wrench.f[i] + 0.0);
@@ -215,7 +216,7 @@ class GraspTables {
 grasping::GraspSimulation start(const HapticScene& scene,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& hands,
                                 const grasping::GraspRules& rules, const SlidingChoice& choice) {
-  const std::vector<haptics::HeldPart> parts = held_parts(scene, choice);
+  const std::vector<contact::HeldPart> parts = held_parts(scene, choice);
   try {
     return {scene.obstacles, parts, hands, rules};
   } catch (const std::invalid_argument& error) {

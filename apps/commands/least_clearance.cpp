@@ -31,12 +31,12 @@ geometry::TrianglePoints points(const geometry::TriangleMesh& mesh, std::int32_t
 }
 
 /// How far a point of the part has moved at most between two poses, metres.
-double motion_of(const haptics::SlidingPart& part, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
+double motion_of(const contact::SlidingPart& part, const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
   return geometry::motion_bound(geometry::displacement_between(from, to, part.p_Vref()), part.radius());
 }
 
 /// How much farther than the nearest pair, `nearest` metres away, others may be listed.
-double most_ahead(const haptics::SlidingPart& part, double nearest) {
+double most_ahead(const contact::SlidingPart& part, double nearest) {
   const double beside = kMostBeside * part.radius();
   return std::min(kMostAhead * part.radius(), beside * beside / (2.0 * nearest));
 }
@@ -48,14 +48,14 @@ LeastClearance::LeastClearance(const HapticScene& scene)
       moving_(scene.moving),
       first_moving_(scene.obstacles.size()),
       least_(farthest()) {
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
-  for (const haptics::ScriptedPart& moving : moving_)
+  for (const contact::ScriptedPart& moving : moving_)
     bodies_.push_back({.body_B = moving.part_B.get(), .X_WB = Eigen::Isometry3d::Identity()});
 }
 
 void LeastClearance::note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
-                          std::span<const haptics::Contact> contacts) {
+                          std::span<const contact::Contact> contacts) {
   try_contacts(X_WV, moving_X_WB, contacts);
   X_WV_noted_.push_back(X_WV);
   X_WB_noted_.insert(X_WB_noted_.end(), moving_X_WB.begin(), moving_X_WB.end());
@@ -67,10 +67,10 @@ void LeastClearance::finish() {
 }
 
 void LeastClearance::try_contacts(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
-                                  std::span<const haptics::Contact> contacts) {
+                                  std::span<const contact::Contact> contacts) {
   const auto nearest =
       std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  if (nearest == contacts.end() || nearest->kind == haptics::ContactKind::kOverlap || nearest->gap >= least_) return;
+  if (nearest == contacts.end() || nearest->kind == contact::ContactKind::kOverlap || nearest->gap >= least_) return;
   // The part has a number too, between those of obstacles and moving objects.
   const auto number = static_cast<std::size_t>(nearest->obstacle);
   const bool moves = number > first_moving_;

@@ -12,7 +12,7 @@
 
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/collision/query_types.h>
-#include <glissade/haptics/sliding_result.h>
+#include <glissade/contact/sliding_result.h>
 
 namespace glissade::apps {
 
@@ -43,7 +43,7 @@ class LeastClearance {
   /// `contacts`, at this pose or near it, save work: their triangles are near. Cost: mostly that of the pairs of
   /// triangles that come as near as the least distance so far.
   void note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
-            std::span<const haptics::Contact> contacts);
+            std::span<const contact::Contact> contacts);
 
   /// To be called after the last pose, before the results are read.
   void finish();
@@ -63,7 +63,7 @@ class LeastClearance {
     double offset;                      ///< metres
   };
   struct Body {
-    const haptics::ContactBody* body_B;
+    const contact::ContactBody* body_B;
     Eigen::Isometry3d X_WB;
     Eigen::Isometry3d X_BV = Eigen::Isometry3d::Identity();
     collision::CoherentWorkspace workspace{};
@@ -78,7 +78,7 @@ class LeastClearance {
 
   double farthest() const { return kFarthest * part_V_.radius(); }
   void try_contacts(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
-                    std::span<const haptics::Contact> contacts);
+                    std::span<const contact::Contact> contacts);
   void look_at_noted();
   void move_to(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB);
   void look_at(Body& body);
@@ -89,8 +89,8 @@ class LeastClearance {
   double distance_of(const Body& body, const Eigen::Isometry3d& X_BV, Pair& pair);
   void take(double distance, std::int64_t pose);
 
-  const haptics::SlidingPart& part_V_;
-  std::vector<haptics::ScriptedPart> moving_;
+  const contact::SlidingPart& part_V_;
+  std::vector<contact::ScriptedPart> moving_;
   std::vector<Body> bodies_;  // obstacles, then objects that move on their own
   std::size_t first_moving_;
   std::vector<Eigen::Isometry3d> X_WV_noted_;

@@ -31,7 +31,8 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
 #include <glissade/apps/view/slide_replay.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/contact/sliding.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -108,10 +109,11 @@ struct SlideOptions {
   bool is_check() const { return trajectories.size() > 1 || !summary.empty() || !report.empty(); }
 };
 
-haptics::SlidingMethod parse_method(const std::string& name) {
-  const auto method = haptics::sliding_method_from_name(name);
+reference::SlidingMethod parse_method(const std::string& name) {
+  const auto method = reference::sliding_method_from_name(name);
   if (method) return *method;
-  throw std::invalid_argument("--method: '" + name + "' is unknown; known are " + joined(haptics::kSlidingMethodNames));
+  throw std::invalid_argument("--method: '" + name + "' is unknown; known are " +
+                              joined(reference::kSlidingMethodNames));
 }
 
 /// Leads the part along the only trajectory, and writes its tables meanwhile, and its replay if there is one.
@@ -122,7 +124,7 @@ SlideCheck slide(const HapticScene& scene, FollowedTrajectory trajectory, const 
   ProgressBar progress("sliding", std::max<std::int64_t>(1, ticks), simulated_time);
   std::int64_t done = 0;
   SlideCheck check = check_slide(scene, trajectory, options.trajectories.front(), check_options,
-                                 [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
+                                 [&](std::chrono::nanoseconds time, const reference::SlidingSimulation& sliding) {
                                    tables.write(time, sliding);
                                    if (replay != nullptr) replay->add(time, sliding);
                                    progress.update(done++);
@@ -217,7 +219,7 @@ void watch_again(const HapticScene& scene, const std::string& file, SlideCheckOp
   std::int64_t done = 0;
   options.needs_summary = options.needs_curve = false;
   check_slide(scene, trajectory, file, options,
-              [&](std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
+              [&](std::chrono::nanoseconds time, const reference::SlidingSimulation& sliding) {
                 replay.add(time, sliding);
                 progress.update(done++);
               });
@@ -240,7 +242,7 @@ void write_page(const HapticScene& scene, const std::vector<SlideCheck>& checks,
   if (!has_table_on_standard_output(options)) std::cout << "report: " << page << '\n';
 }
 
-haptics::SlidingOptions sliding_options(const SlideOptions& options) {
+contact::SlidingOptions sliding_options(const SlideOptions& options) {
   return {.metaphor = metaphor_of(options.sliding), .rules = with_choice({}, options.sliding)};
 }
 
@@ -266,7 +268,7 @@ int run(SlideOptions options) {
                                   options.goal_tolerance_m, options.goal_tolerance_deg};
   check_options.needs_summary = options.is_check();
   check_options.needs_curve = !options.report.empty();
-  if (check_options.method == haptics::SlidingMethod::kPaper && options.sliding.has_rules()) {
+  if (check_options.method == reference::SlidingMethod::kPaper && options.sliding.has_rules()) {
     throw std::invalid_argument("--method: paper does not support --friction, --spiral-search and --depenetrate");
   }
   if (!options.is_check() && options.tables.motion.empty()) options.tables.motion = "-";
@@ -279,7 +281,7 @@ int run(SlideOptions options) {
   const Scene file = open_scene(options.scene);
   const HapticScene scene = make_haptic_scene(file, {options.part});
   check_options.sliding.stiffness = stiffness_of(options.sliding, scene.parts.front().part_V->radius());
-  if (check_options.method == haptics::SlidingMethod::kPaper && !scene.moving.empty()) {
+  if (check_options.method == reference::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);
   }

@@ -18,6 +18,8 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/contact_wrench.h>
+#include <glissade/contact/spring.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 namespace {
@@ -38,23 +40,23 @@ void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, 
 /// How deep the part is in others at the first row, and what can be done about it.
 std::string advice(const HapticScene& scene, const FollowedTrajectory& trajectory, const SlideCheckOptions& options) {
   std::vector<Eigen::Isometry3d> moving_X_WB;
-  for (const haptics::ScriptedPart& part : scene.moving)
+  for (const contact::ScriptedPart& part : scene.moving)
     moving_X_WB.push_back(part.script_X_WB.pose_at(trajectory.first_time()));
   const Eigen::Isometry3d& X_WV = trajectory.first_pose();
-  const bool may_depenetrate = options.method == haptics::SlidingMethod::kProjection &&
-                               options.sliding.rules.overlap != haptics::OverlapRule::kDepenetrate;
+  const bool may_depenetrate = options.method == reference::SlidingMethod::kProjection &&
+                               options.sliding.rules.overlap != contact::OverlapRule::kDepenetrate;
   return overlap_advice(scene, std::span(&X_WV, 1), moving_X_WB, may_depenetrate);
 }
 
 /// The distance of the part's bounding sphere from those of all other objects, metres; negative if they intersect.
-double between_spheres(const HapticScene& scene, const haptics::SlidingSimulation& sliding) {
+double between_spheres(const HapticScene& scene, const reference::SlidingSimulation& sliding) {
   const collision::DopTree& part = scene.parts.front().part_V->tree;
   const Eigen::Vector3d center_W = sliding.result().X_WV * part.center();
   double least = std::numeric_limits<double>::infinity();
   const auto look_at = [&](const collision::DopTree& tree, const Eigen::Isometry3d& X_WB) {
     least = std::min(least, (X_WB * tree.center() - center_W).norm() - tree.radius() - part.radius());
   };
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     look_at(obstacle.body->tree, obstacle.X_WO);
   for (std::size_t i = 0; i < scene.moving.size(); ++i)
     look_at(scene.moving[i].part_B->tree, sliding.scripted_X_WB()[i]);
@@ -63,15 +65,15 @@ double between_spheres(const HapticScene& scene, const haptics::SlidingSimulatio
 
 /// The simulation from the first row of the trajectory on. Throws std::invalid_argument, with one sentence, when a body
 /// is not free there.
-std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& scene,
-                                                          const FollowedTrajectory& trajectory,
-                                                          const SlideCheckOptions& options) {
-  std::vector<haptics::ScriptedPart> moving = scene.moving;
-  for (haptics::ScriptedPart& part : moving)
+std::unique_ptr<reference::SlidingSimulation> start_sliding(const HapticScene& scene,
+                                                            const FollowedTrajectory& trajectory,
+                                                            const SlideCheckOptions& options) {
+  std::vector<contact::ScriptedPart> moving = scene.moving;
+  for (contact::ScriptedPart& part : moving)
     part.start = trajectory.first_time();
   try {
-    return haptics::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V, trajectory.first_pose(),
-                                 options.sliding, moving);
+    return reference::make_sliding(options.method, scene.obstacles, scene.parts.front().part_V, trajectory.first_pose(),
+                                   options.sliding, moving);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(std::string(error.what()) + ", at the time of the first row" +
                                 advice(scene, trajectory, options));
@@ -80,7 +82,7 @@ std::unique_ptr<haptics::SlidingSimulation> start_sliding(const HapticScene& sce
 
 /// Advances to a tick of the trajectory, a millisecond, and returns its time.
 std::chrono::nanoseconds slide_to(std::int64_t tick, FollowedTrajectory& trajectory,
-                                  haptics::SlidingSimulation& sliding) {
+                                  reference::SlidingSimulation& sliding) {
   const std::chrono::nanoseconds time = trajectory.first_time() + tick * milliseconds(1);
   // The first row shows the start: no time has passed yet.
   sliding.advance(trajectory.pose_at(time), tick == 0 ? 0.0 : 1.0);
@@ -97,7 +99,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   check.duration_s = in_seconds(trajectory.duration());
   check.doubt = doubt_of_positions(trajectory.positions(), scene);
   check.far_m = std::numeric_limits<double>::infinity();
-  std::unique_ptr<haptics::SlidingSimulation> sliding;
+  std::unique_ptr<reference::SlidingSimulation> sliding;
   try {
     sliding = start_sliding(scene, trajectory, options);
   } catch (const std::invalid_argument& error) {
@@ -112,7 +114,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
-    const haptics::Wrench wrench = contact_wrench(sliding->result(), sliding->part().p_Vref());
+    const contact::Wrench wrench = contact_wrench(sliding->result(), sliding->part().p_Vref());
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
@@ -167,8 +169,8 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   const auto reached = std::count_if(checks.begin(), checks.end(),
                                      [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
   report.summary.emplace_back("scene", scene.source);
-  report.summary.emplace_back("metaphor", std::string(haptics::name_of(options.sliding.metaphor)));
-  report.summary.emplace_back("method", std::string(haptics::name_of(options.method)));
+  report.summary.emplace_back("metaphor", std::string(contact::name_of(options.sliding.metaphor)));
+  report.summary.emplace_back("method", std::string(reference::name_of(options.method)));
   report.summary.emplace_back("rules", words_of(options.choice));
   report.summary.emplace_back(scene.X_WGoal ? "goal reached" : "end of the trajectory reached",
                               std::to_string(reached) + " of " + std::to_string(checks.size()));

@@ -13,15 +13,16 @@
 #include <glissade/apps/report/plot.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
+#include <glissade/contact/sliding.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 
 struct SlideCheckOptions {
-  haptics::SlidingOptions sliding{};  ///< what follows from the choice
+  contact::SlidingOptions sliding{};  ///< what follows from the choice
   SlidingChoice choice{};
-  haptics::SlidingMethod method = haptics::SlidingMethod::kProjection;
+  reference::SlidingMethod method = reference::SlidingMethod::kProjection;
   double goal_tolerance_m = 0.3e-3;
   double goal_tolerance_deg = 0.5;
   bool needs_summary = true;  ///< otherwise the least clearance is left out
@@ -49,7 +50,7 @@ struct SlideCheck {
 };
 
 /// Called after each millisecond, first for the start, with the time on the clock of the trajectory.
-using SlideWatch = std::function<void(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding)>;
+using SlideWatch = std::function<void(std::chrono::nanoseconds time, const reference::SlidingSimulation& sliding)>;
 
 /// Moves the part along the trajectory in steps of a millisecond, offline. The part starts at the pose of the first
 /// row, objects that move on their own at their poses of that time. The goal is that of the scene, by default the last

@@ -3,6 +3,7 @@
 
 #include <glissade/apps/commands/slide_contacts.h>
 #include <glissade/geometry/displacement.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 namespace {
@@ -33,9 +34,9 @@ void add_vector(CsvWriter& out, const Eigen::Vector3d& vector) {
     out.add(vector[i] + 0.0);
 }
 
-double greatest_margin(const HapticScene& scene, const haptics::SlidingSimulation& sliding) {
+double greatest_margin(const HapticScene& scene, const reference::SlidingSimulation& sliding) {
   double greatest = sliding.margin();
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     greatest = std::max(greatest, obstacle.margin.value_or(0.0));
   return greatest;
 }
@@ -43,7 +44,7 @@ double greatest_margin(const HapticScene& scene, const haptics::SlidingSimulatio
 }  // namespace
 
 SlideContactsWriter::SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
-                                         const haptics::SlidingSimulation& sliding)
+                                         const reference::SlidingSimulation& sliding)
     : scene_(scene),
       sliding_(sliding),
       tracker_(greatest_margin(scene, sliding)),
@@ -56,11 +57,11 @@ SlideContactsWriter::SlideContactsWriter(const SlideContactsFiles& files, const 
 void SlideContactsWriter::write(double time_s) {
   const auto contacts = tracker_.update(sliding_.result(), travel_of_obstacles());
   if (contacts_out_) {
-    for (const haptics::TrackedContact& tracked : contacts)
+    for (const contact::TrackedContact& tracked : contacts)
       write_contact(time_s, tracked);
   }
   if (patches_out_) {
-    for (const haptics::ContactPatch& patch : patches_.merge(contacts))
+    for (const contact::ContactPatch& patch : patches_.merge(contacts))
       write_patch(time_s, patch);
   }
 }
@@ -70,7 +71,7 @@ double SlideContactsWriter::travel_of_obstacles() {
   double most = 0.0;
   const auto X_WB = sliding_.scripted_X_WB();
   for (std::size_t i = 0; i < X_WB.size(); ++i) {
-    const haptics::SlidingPart& part = *scene_.moving[i].part_B;
+    const contact::SlidingPart& part = *scene_.moving[i].part_B;
     const geometry::Displacement d = geometry::displacement_between(moving_X_WB_[i], X_WB[i], part.p_Vref());
     most = std::max(most, geometry::motion_bound(d, part.radius()));
   }
@@ -83,10 +84,10 @@ void SlideContactsWriter::close() {
   if (patches_out_) patches_out_->close();
 }
 
-void SlideContactsWriter::write_contact(double time_s, const haptics::TrackedContact& tracked) {
-  const haptics::Contact& contact = tracked.contact;
+void SlideContactsWriter::write_contact(double time_s, const contact::TrackedContact& tracked) {
+  const contact::Contact& contact = tracked.contact;
   CsvWriter& out = *contacts_out_;
-  out.add(time_s).add(tracked.id).add(haptics::name_of(contact.kind)).add(std::int64_t{contact.part_triangle});
+  out.add(time_s).add(tracked.id).add(contact::name_of(contact.kind)).add(std::int64_t{contact.part_triangle});
   out.add(scene_.body_names[static_cast<std::size_t>(contact.obstacle)]);
   out.add(std::int64_t{contact.obstacle_triangle});
   out.add(std::int64_t{contact.part_feature}).add(std::int64_t{contact.obstacle_feature});
@@ -98,7 +99,7 @@ void SlideContactsWriter::write_contact(double time_s, const haptics::TrackedCon
   out.end_row();
 }
 
-void SlideContactsWriter::write_patch(double time_s, const haptics::ContactPatch& patch) {
+void SlideContactsWriter::write_patch(double time_s, const contact::ContactPatch& patch) {
   CsvWriter& out = *patches_out_;
   out.add(time_s).add(patch.id).add(scene_.body_names[static_cast<std::size_t>(patch.obstacle)]);
   out.add(std::int64_t{patch.count});

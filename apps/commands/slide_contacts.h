@@ -10,8 +10,8 @@
 
 #include <glissade/apps/files/csv.h>
 #include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/haptics/sliding_simulation.h>
-#include <glissade/haptics/tracked_contacts.h>
+#include <glissade/contact/tracked_contacts.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -29,7 +29,7 @@ class SlideContactsWriter {
   /// Throws std::invalid_argument when a file cannot be created. The names of the scene must pass
   /// `check_names_fit_csv`. `scene` and `sliding` must outlive this object.
   SlideContactsWriter(const SlideContactsFiles& files, const HapticScene& scene,
-                      const haptics::SlidingSimulation& sliding);
+                      const reference::SlidingSimulation& sliding);
 
   /// Writes the rows of the newest result, with the time `time_s`. Call it once after every call of `advance`.
   void write(double time_s);
@@ -39,13 +39,13 @@ class SlideContactsWriter {
 
  private:
   double travel_of_obstacles();
-  void write_contact(double time_s, const haptics::TrackedContact& tracked);
-  void write_patch(double time_s, const haptics::ContactPatch& patch);
+  void write_contact(double time_s, const contact::TrackedContact& tracked);
+  void write_patch(double time_s, const contact::ContactPatch& patch);
 
   const HapticScene& scene_;
-  const haptics::SlidingSimulation& sliding_;
-  haptics::ContactTracker tracker_;
-  haptics::ContactPatches patches_;
+  const reference::SlidingSimulation& sliding_;
+  contact::ContactTracker tracker_;
+  contact::ContactPatches patches_;
   std::vector<Eigen::Isometry3d> moving_X_WB_;  // at the last call
   std::unique_ptr<CsvWriter> contacts_out_;
   std::unique_ptr<CsvWriter> patches_out_;

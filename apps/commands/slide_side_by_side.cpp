@@ -8,6 +8,7 @@
 
 #include <glissade/apps/commands/slide_side_by_side.h>
 #include <glissade/apps/progress.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -31,7 +32,7 @@ void check_side_by_side(const HapticScene& scene, std::vector<FollowedTrajectory
     total += steps;
     tasks.emplace_back([&, i, steps] {
       SlideCheck check = check_slide(scene, trajectories[i], files[i], options,
-                                     [&](std::chrono::nanoseconds, const haptics::SlidingSimulation&) { ++done; });
+                                     [&](std::chrono::nanoseconds, const reference::SlidingSimulation&) { ++done; });
       if (check.problem) done += steps;
       return check;
     });

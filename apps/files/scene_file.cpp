@@ -14,10 +14,10 @@
 #include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
+#include <glissade/contact/contact_body.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/triangle_mesh.h>
-#include <glissade/haptics/contact_body.h>
-#include <glissade/haptics/sliding_rules.h>
 #include <glissade/shapes/shape_catalog.h>
 
 namespace glissade::apps {
@@ -92,7 +92,7 @@ class SceneReader {
     }
     if (const YAML::Node margin = node["margin_m"]) {
       object.margin_m = yaml_.number(margin, "margin_m");
-      if (!(*object.margin_m > 0.0 && *object.margin_m <= haptics::kGreatestMargin_m)) {
+      if (!(*object.margin_m > 0.0 && *object.margin_m <= contact::kGreatestMargin_m)) {
         yaml_.fail(margin, "margin_m: must be positive and at most 0.00025, not " + in_quotes(margin.Scalar()));
       }
     }
@@ -103,14 +103,14 @@ class SceneReader {
     return object;
   }
 
-  /// The limit is that of `haptics::SlidingPart`, but the message names key and line.
+  /// The limit is that of `contact::SlidingPart`, but the message names key and line.
   Eigen::Vector3d read_compliance_point(const YAML::Node& node, const geometry::TriangleMesh& mesh) const {
     const Eigen::Vector3d point = yaml_.numbers(node, "compliance_point_m", 3);
     const Eigen::Vector3d center = bounds_of(mesh).center();
     double radius = 0.0;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
       radius = std::max(radius, (vertex - center).norm());
-    const double farthest = haptics::kFarthestPoint * radius;
+    const double farthest = contact::kFarthestPoint * radius;
     const double distance = (point - center).norm();
     if (distance <= farthest) return point;
     yaml_.fail(node, "compliance_point_m: must lie within " + rounded_text(farthest) +

@@ -50,7 +50,7 @@ inline constexpr const char* kSceneFileHelp =
 /// Motion of an object that moves on its own, or in another hand.
 struct SceneMotion {
   geometry::PoseTrajectory script_X_WB;
-  std::optional<double> grip_N_per_m{};  ///< default: that of `haptics::ScriptedPart`
+  std::optional<double> grip_N_per_m{};  ///< default: that of `contact::ScriptedPart`
 };
 
 /// One object at its initial pose.

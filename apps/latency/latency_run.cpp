@@ -15,11 +15,11 @@
 #include <glissade/apps/latency/shared_stamps.h>
 #include <glissade/apps/latency/udp_ping_pong.h>
 #include <glissade/apps/run/lcm_option.h>
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/haptic_server.h>
-#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
 
@@ -68,10 +68,10 @@ Eigen::Isometry3d start_of_box() {
   return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.022));
 }
 
-haptics::MultiPartSliding make_sliding_for_latency() {
-  const auto plate_W = std::make_shared<haptics::ContactBody>(plate());
-  const auto box_V = std::make_shared<haptics::SlidingPart>(box());
-  return {{{plate_W}}, {{.part_V = box_V, .X_WV_start = start_of_box()}}, haptics::real_time_rules()};
+contact::MultiPartSliding make_sliding_for_latency() {
+  const auto plate_W = std::make_shared<contact::ContactBody>(plate());
+  const auto box_V = std::make_shared<contact::SlidingPart>(box());
+  return {{{plate_W}}, {{.part_V = box_V, .X_WV_start = start_of_box()}}, contact::real_time_rules()};
 }
 
 /// Measures slice by slice.
@@ -152,7 +152,7 @@ class LatencyRun {
   }
 
   void run_loop(StampedGlove& glove, const haptics::HapticServer::Sink& sink, LinkFigures& figures) {
-    haptics::MultiPartSliding sliding = make_sliding_for_latency();
+    contact::MultiPartSliding sliding = make_sliding_for_latency();
     haptics::HapticServer server({{&glove}}, sliding, clock_, sink, {.period = kLatencyTick, .ticks = ticks()});
     realtime::PeriodicThread bare_loop(clock_, {.period = kLatencyTick, .fifo_priority = realtime::kHapticPriority},
                                        [](const realtime::PeriodicTick&) { return true; });

@@ -59,7 +59,7 @@ std::optional<RecordedSession> repeat(const RecordedSession& session, LogFile& l
                                       ReplayAudience* audience, ReplayOutcome& outcome) {
   const HapticScene scene = recorded_scene(log.path(), session, scene_file);
   const std::vector<Grip> grips = grips_of(session, scene, log.path());
-  haptics::SlidingRules rules = session.rules;
+  contact::SlidingRules rules = session.rules;
   rules.has_search_thread = true;  // takes less time, and gives the same bits
   StartedSimulation started = start_simulation(scene, grips, session.choice, rules, session.period);
   std::vector<haptics::KernelHand> hands;

@@ -11,11 +11,11 @@
 
 #include <glissade/apps/record/log_file.h>
 #include <glissade/apps/scene/sliding_option.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/recording.h>
-#include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::apps {
 
@@ -33,7 +33,7 @@ struct RecordedHand {
 struct RecordedSession {
   std::string scene_file;        ///< absolute path; empty: that of the demonstration
   std::uint64_t scene_hash = 0;  ///< as `scene_hash` gives it
-  haptics::SlidingRules rules;   ///< of the simulation, without those of `choice`
+  contact::SlidingRules rules;   ///< of the simulation, without those of `choice`
   SlidingChoice choice;
   std::chrono::nanoseconds period{haptics::kTickPeriod};  ///< of the haptic loop
   std::vector<RecordedHand> hands;

@@ -39,7 +39,7 @@ struct Session {
   std::int64_t objects = 0;           ///< of the scene, including the parts
   std::int64_t collision_frames = 0;  ///< searches for contacts, one frame each
   collision::FrameReport collision;   ///< sum of the reports of these frames
-  haptics::CallStatistics calls;      ///< of the simulation
+  contact::CallStatistics calls;      ///< of the simulation
   std::vector<std::int64_t> devices;  ///< the number of each hand's glove
   /// Of each hand; null if it has no fingers in the simulation.
   std::vector<std::shared_ptr<const grasping::HandModel>> hand_models;

@@ -7,7 +7,7 @@
 #include <glissade/apps/progress.h>
 #include <glissade/apps/run/session_check.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/contact/multi_part_sliding.h>
 
 namespace glissade::apps {
 
@@ -21,13 +21,13 @@ constexpr double kTouching_m = 1e-7;
 constexpr std::size_t kStrides = 64;  // in which the run is checked
 
 struct StartingPart {
-  std::shared_ptr<const haptics::SlidingPart> part_V;
+  std::shared_ptr<const contact::SlidingPart> part_V;
   Eigen::Isometry3d X_WV;
 };
 
 /// A body that a part touches or overlaps at its start, and the part's pose there.
 struct PlacedBody {
-  const haptics::ContactBody* body;
+  const contact::ContactBody* body;
   Eigen::Isometry3d X_BV;
 };
 
@@ -36,7 +36,7 @@ std::vector<StartingPart> starting_parts(const HapticScene& scene) {
   std::vector<StartingPart> parts;
   for (const ScenePart& part : scene.parts)
     parts.push_back({part.part_V, part.X_WV_start});
-  for (const haptics::ScriptedPart& part : scene.moving)
+  for (const contact::ScriptedPart& part : scene.moving)
     parts.push_back({part.part_B, part.script_X_WB.pose_at(part.start)});
   return parts;
 }
@@ -45,22 +45,22 @@ std::vector<StartingPart> starting_parts(const HapticScene& scene) {
 /// the faces that do. An open part has no inside: it is checked a little farther away from these others.
 std::shared_ptr<const geometry::TriangleMesh> mesh_to_check(const HapticScene& scene,
                                                             const std::vector<StartingPart>& parts, std::size_t part) {
-  const std::shared_ptr<const haptics::SlidingPart>& part_V = parts[part].part_V;
+  const std::shared_ptr<const contact::SlidingPart>& part_V = parts[part].part_V;
   collision::QueryWorkspace workspace;
   std::vector<PlacedBody> touched;
-  const auto look_at = [&](const haptics::ContactBody& body, const Eigen::Isometry3d& X_WB) {
+  const auto look_at = [&](const contact::ContactBody& body, const Eigen::Isometry3d& X_WB) {
     const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * parts[part].X_WV;
     if (collision::intersects(body.tree, part_V->tree, X_BV, workspace, kTouching_m)) touched.push_back({&body, X_BV});
   };
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     look_at(*obstacle.body, obstacle.X_WO);
   for (std::size_t other = 0; other < part; ++other)
     look_at(*parts[other].part_V, parts[other].X_WV);
   if (touched.empty()) return {part_V, &part_V->tree.mesh()};
   double depth = 0.0;
   for (const PlacedBody& body : touched)
-    depth = std::max(depth, haptics::overlap_depth(*body.body, *part_V, body.X_BV));
-  std::optional<geometry::TriangleMesh> mesh = haptics::inset_mesh(*part_V, depth + kDeeper_m);
+    depth = std::max(depth, contact::overlap_depth(*body.body, *part_V, body.X_BV));
+  std::optional<geometry::TriangleMesh> mesh = contact::inset_mesh(*part_V, depth + kDeeper_m);
   if (!mesh) {
     Eigen::Vector3d away_V = Eigen::Vector3d::Zero();
     for (const auto& [body, X_BV] : touched)

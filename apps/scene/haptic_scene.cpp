@@ -52,9 +52,9 @@ std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& obj
   }
 }
 
-std::shared_ptr<const haptics::SlidingPart> make_part(const Scene& scene, const SceneObject& object) {
-  if (object.compliance_point_B) return make_body<haptics::SlidingPart>(scene, object, *object.compliance_point_B);
-  return make_body<haptics::SlidingPart>(scene, object);
+std::shared_ptr<const contact::SlidingPart> make_part(const Scene& scene, const SceneObject& object) {
+  if (object.compliance_point_B) return make_body<contact::SlidingPart>(scene, object, *object.compliance_point_B);
+  return make_body<contact::SlidingPart>(scene, object);
 }
 
 /// Objects of one mesh share their body.
@@ -62,16 +62,16 @@ class Bodies {
  public:
   explicit Bodies(const Scene& scene) : scene_(scene) {}
 
-  std::shared_ptr<const haptics::ContactBody> of(const SceneObject& object) {
-    if (!object.giving_way.empty()) return make_body<haptics::ContactBody>(scene_, object);
-    std::shared_ptr<const haptics::ContactBody>& body = bodies_[object.mesh.get()];
-    if (!body) body = make_body<haptics::ContactBody>(scene_, object);
+  std::shared_ptr<const contact::ContactBody> of(const SceneObject& object) {
+    if (!object.giving_way.empty()) return make_body<contact::ContactBody>(scene_, object);
+    std::shared_ptr<const contact::ContactBody>& body = bodies_[object.mesh.get()];
+    if (!body) body = make_body<contact::ContactBody>(scene_, object);
     return body;
   }
 
  private:
   const Scene& scene_;
-  std::map<const geometry::TriangleMesh*, std::shared_ptr<const haptics::ContactBody>> bodies_;
+  std::map<const geometry::TriangleMesh*, std::shared_ptr<const contact::ContactBody>> bodies_;
 };
 
 }  // namespace
@@ -117,17 +117,17 @@ HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>
     result.body_names.push_back(part.name);
   for (const SceneObject& object : scene.objects) {
     if (!object.motion) continue;
-    haptics::ScriptedPart& moving =
-        result.moving.emplace_back(haptics::ScriptedPart{make_part(scene, object), object.motion->script_X_WB});
+    contact::ScriptedPart& moving =
+        result.moving.emplace_back(contact::ScriptedPart{make_part(scene, object), object.motion->script_X_WB});
     moving.grip_N_per_m = object.motion->grip_N_per_m.value_or(moving.grip_N_per_m);
     moving.name = in_quotes(object.name);
     result.body_names.push_back(object.name);
   }
   const std::size_t count = result.parts.size() + result.moving.size();
-  if (count > haptics::kMaxParts) {
+  if (count > contact::kMaxParts) {
     throw std::invalid_argument(scene.source + ": " + std::to_string(count) +
                                 " objects are in a hand or move on their own; at most " +
-                                std::to_string(haptics::kMaxParts) + " can");
+                                std::to_string(contact::kMaxParts) + " can");
   }
   if (result.obstacles.empty() && count == 1) {
     throw std::invalid_argument(scene.source + ": there is nothing but the part " + result.part_names() +
@@ -158,8 +158,8 @@ std::vector<std::string> movable_objects(const Scene& scene) {
   throw std::invalid_argument(scene.source + ": no object is movable; a hand needs a part to hold ('movable: true')");
 }
 
-std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, const SlidingChoice& choice) {
-  std::vector<haptics::HeldPart> parts;
+std::vector<contact::HeldPart> held_parts(const HapticScene& scene, const SlidingChoice& choice) {
+  std::vector<contact::HeldPart> parts;
   for (const ScenePart& part : scene.parts) {
     parts.push_back({.part_V = part.part_V,
                      .X_WV_start = part.X_WV_start,
@@ -167,7 +167,7 @@ std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, const Slidin
                      .stiffness = stiffness_of(choice, part.part_V->radius()),
                      .name = "object " + in_quotes(part.name)});
   }
-  for (const haptics::ScriptedPart& part : scene.moving)
+  for (const contact::ScriptedPart& part : scene.moving)
     parts.push_back(held_by_script(part));
   return parts;
 }

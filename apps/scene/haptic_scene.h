@@ -12,7 +12,7 @@
 
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/scene/sliding_option.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/contact/sliding.h>
 #include <glissade/reference/grid_check.h>
 #include <glissade/viewer/view_scene.h>
 
@@ -21,15 +21,15 @@ namespace glissade::apps {
 /// A part that a hand can hold.
 struct ScenePart {
   std::string name;
-  std::shared_ptr<const haptics::SlidingPart> part_V;
+  std::shared_ptr<const contact::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
 };
 
 struct HapticScene {
   std::string source;            ///< the scene file's name, for messages
   std::vector<ScenePart> parts;  ///< at least one
-  std::vector<haptics::Obstacle> obstacles;
-  std::vector<haptics::ScriptedPart> moving;            ///< the objects that move on their own
+  std::vector<contact::Obstacle> obstacles;
+  std::vector<contact::ScriptedPart> moving;            ///< the objects that move on their own
   std::vector<reference::PlacedMesh> placed_obstacles;  ///< `obstacles` without triangles that give way, for the check
   std::vector<viewer::ViewObject> shown;                ///< all objects, for viewers
   /// Names in the scene file, by the number of the body in contacts: obstacles, parts, moving objects.
@@ -56,7 +56,7 @@ std::vector<std::string> movable_objects(const Scene& scene);
 
 /// All parts of a simulation: first those that hands can hold, as chosen, then the objects that move on their
 /// own.
-std::vector<haptics::HeldPart> held_parts(const HapticScene& scene, const SlidingChoice& choice);
+std::vector<contact::HeldPart> held_parts(const HapticScene& scene, const SlidingChoice& choice);
 
 /// Throws std::invalid_argument, naming scene and object, when the name of an obstacle or a moving object does not fit
 /// into a cell of a CSV file.

@@ -18,7 +18,7 @@ void add(Hash& hash, const geometry::TriangleMesh& mesh) {
   }
 }
 
-void add(Hash& hash, const haptics::SlidingPart& part) {
+void add(Hash& hash, const contact::SlidingPart& part) {
   add(hash, part.tree.mesh());
   hash.add(part.p_Vref());
   hash.add(std::uint64_t{part.has_chosen_point()});
@@ -41,12 +41,12 @@ std::uint64_t scene_hash(const HapticScene& scene) {
     add(hash, *part.part_V);
     hash.add(part.X_WV_start);
   }
-  for (const haptics::Obstacle& obstacle : scene.obstacles) {
+  for (const contact::Obstacle& obstacle : scene.obstacles) {
     add(hash, obstacle.body->tree.mesh());
     hash.add(obstacle.X_WO);
     hash.add(obstacle.margin.value_or(-1.0));
   }
-  for (const haptics::ScriptedPart& part : scene.moving) {
+  for (const contact::ScriptedPart& part : scene.moving) {
     add(hash, *part.part_B);
     add(hash, part.script_X_WB);
     hash.add(part.grip_N_per_m);

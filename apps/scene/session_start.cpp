@@ -7,15 +7,17 @@
 #include <glissade/apps/scene/session_start.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/grasping/grasp_simulation.h>
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/haptics/loop_simulation.h>
 
 namespace glissade::apps {
 
 namespace {
 
-void soften(haptics::HeldPart& part, const devices::DeviceDescriptor& device, std::chrono::nanoseconds period) {
-  part.stiffness = coupling_for(device, part.stiffness.value(), period).stiffness;
+void soften(contact::HeldPart& part, const devices::DeviceDescriptor& device, std::chrono::nanoseconds period) {
+  part.stiffness = haptics::coupling_for(device, part.stiffness.value(), period).stiffness;
 }
 
 /// Hands of one shape share their model.
@@ -36,9 +38,9 @@ std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const std::vec
 std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
                                         std::chrono::nanoseconds period) {
   std::vector<std::string> sentences;
-  const haptics::CouplingStiffness wanted = stiffness_of(choice, 1.0);
+  const contact::CouplingStiffness wanted = stiffness_of(choice, 1.0);
   for (const Grip& grip : grips) {
-    const double stiffness = coupling_for(grip.device, wanted, period).stiffness.translational;
+    const double stiffness = haptics::coupling_for(grip.device, wanted, period).stiffness.translational;
     constexpr double kNearly = 1.0 - 1e-3;
     if (stiffness >= kNearly * wanted.translational) continue;
     const std::string reason =
@@ -54,22 +56,23 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const Sl
 }
 
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
-                                   const SlidingChoice& choice, const haptics::SlidingRules& rules,
+                                   const SlidingChoice& choice, const contact::SlidingRules& rules,
                                    std::chrono::nanoseconds period) {
-  std::vector<haptics::HeldPart> parts = held_parts(scene, choice);
+  std::vector<contact::HeldPart> parts = held_parts(scene, choice);
   const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
   for (const Grip& grip : grips) {
     if (grip.fingers.has_value() != has_fingers) throw std::invalid_argument("either all hands have fingers, or none");
     for (std::size_t p = 0; p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);
   }
-  const haptics::SlidingRules chosen = with_choice(rules, choice);
+  const contact::SlidingRules chosen = with_choice(rules, choice);
   StartedSimulation started;
   started.fingers.resize(grips.size());
   started.models.resize(grips.size());
   try {
     if (!has_fingers) {
-      started.simulation = std::make_unique<haptics::MultiPartSliding>(scene.obstacles, parts, chosen);
+      started.parts = std::make_unique<contact::MultiPartSliding>(scene.obstacles, parts, chosen);
+      started.simulation = std::make_unique<haptics::PartsInLoop>(*started.parts);
       return started;
     }
     started.models = models_of(grips);

@@ -10,11 +10,11 @@
 
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/loop_simulation.h>
-#include <glissade/haptics/sliding_rules.h>
 
 namespace glissade::apps {
 
@@ -27,6 +27,7 @@ struct Grip {
 
 /// A simulation, and its hands as the haptic loop takes them, one for each grip.
 struct StartedSimulation {
+  std::unique_ptr<contact::MultiPartSliding> parts;  ///< of hands without fingers
   std::unique_ptr<haptics::LoopSimulation> simulation;
   std::vector<std::optional<haptics::FingerHand>> fingers;
   std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
@@ -41,7 +42,7 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const Sl
 /// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
 /// that starts inside another object, with how deep it is and what can be done.
 StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
-                                   const SlidingChoice& choice, const haptics::SlidingRules& rules,
+                                   const SlidingChoice& choice, const contact::SlidingRules& rules,
                                    std::chrono::nanoseconds period = haptics::kTickPeriod);
 
 }  // namespace glissade::apps

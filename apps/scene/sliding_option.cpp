@@ -6,6 +6,7 @@
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
+#include <glissade/contact/spring.h>
 
 namespace glissade::apps {
 
@@ -24,23 +25,23 @@ void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
                    "Accept a part that starts in obstacles, and move it out, see below");
 }
 
-haptics::Metaphor metaphor_of(const SlidingChoice& choice) {
-  const auto metaphor = haptics::metaphor_from_name(choice.metaphor);
+contact::Metaphor metaphor_of(const SlidingChoice& choice) {
+  const auto metaphor = contact::metaphor_from_name(choice.metaphor);
   if (metaphor) return *metaphor;
   throw std::invalid_argument(
       "--metaphor: " + in_quotes(choice.metaphor) + " is unknown" +
-      did_you_mean(choice.metaphor, {haptics::kMetaphorNames.begin(), haptics::kMetaphorNames.end()}) + "; known are " +
-      joined(haptics::kMetaphorNames));
+      did_you_mean(choice.metaphor, {contact::kMetaphorNames.begin(), contact::kMetaphorNames.end()}) + "; known are " +
+      joined(contact::kMetaphorNames));
 }
 
-haptics::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius) {
-  const haptics::CouplingStiffness usual = haptics::default_stiffness(radius);
+contact::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius) {
+  const contact::CouplingStiffness usual = contact::default_stiffness(radius);
   if (!choice.stiffness_N_per_m) return usual;
   const double factor = *choice.stiffness_N_per_m / usual.translational;
   return {*choice.stiffness_N_per_m, factor * usual.rotational};
 }
 
-haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice) {
+contact::SlidingRules with_choice(contact::SlidingRules rules, const SlidingChoice& choice) {
   constexpr double kSoftest_N_per_m = 10.0;
   constexpr double kStiffest_N_per_m = 1e5;
   const double stiffness = choice.stiffness_N_per_m.value_or(kSoftest_N_per_m);
@@ -54,17 +55,17 @@ haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoi
         "--friction: the second coefficient, at rest, must not be less than the first, sliding");
   }
   rules.spiral_search = choice.spiral_search;
-  if (choice.depenetrate) rules.overlap = haptics::OverlapRule::kDepenetrate;
+  if (choice.depenetrate) rules.overlap = contact::OverlapRule::kDepenetrate;
   return rules;
 }
 
 std::string words_of(const SlidingChoice& choice) {
-  const haptics::SlidingRules rules = with_choice({}, choice);
-  const haptics::Friction& friction = rules.friction;
+  const contact::SlidingRules rules = with_choice({}, choice);
+  const contact::Friction& friction = rules.friction;
   std::string words = friction.is_on() ? "friction " + format_number(friction.sliding) : "no friction";
   if (friction.at_rest != friction.sliding) words += ", at rest " + format_number(friction.at_rest);
   if (rules.spiral_search) words += "; spiral search";
-  if (rules.overlap == haptics::OverlapRule::kDepenetrate) words += "; depenetrate";
+  if (rules.overlap == contact::OverlapRule::kDepenetrate) words += "; depenetrate";
   if (choice.stiffness_N_per_m) words += "; " + format_number(*choice.stiffness_N_per_m) + " N/m";
   return words;
 }

@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
+#include <glissade/contact/sliding_rules.h>
+#include <glissade/contact/spring.h>
 #include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding_rules.h>
 
 namespace CLI {
 class App;
@@ -52,11 +53,11 @@ inline constexpr const char* kSlidingChoiceHelp =
 void add_sliding_options(CLI::App& command, SlidingChoice& choice);
 
 /// The wanted coupling of a part of this radius (metres).
-haptics::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius);
+contact::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius);
 /// Throws std::invalid_argument, naming the option.
-haptics::Metaphor metaphor_of(const SlidingChoice& choice);
+contact::Metaphor metaphor_of(const SlidingChoice& choice);
 /// `rules` with the choice of the user. Throws std::invalid_argument, naming the option.
-haptics::SlidingRules with_choice(haptics::SlidingRules rules, const SlidingChoice& choice);
+contact::SlidingRules with_choice(contact::SlidingRules rules, const SlidingChoice& choice);
 /// What a page says of a choice: "friction 0.2, at rest 0.3; spiral search; 500 N/m", or "no friction".
 std::string words_of(const SlidingChoice& choice);
 

@@ -5,7 +5,7 @@
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/contact/multi_part_sliding.h>
 
 namespace glissade::apps {
 
@@ -20,18 +20,18 @@ struct Overlaps {
 
 Overlaps overlaps_of(std::size_t part, const HapticScene& scene, std::span<const Eigen::Isometry3d> X_WV,
                      std::span<const Eigen::Isometry3d> moving_X_WB) {
-  const haptics::SlidingPart& part_V = *scene.parts[part].part_V;
+  const contact::SlidingPart& part_V = *scene.parts[part].part_V;
   collision::QueryWorkspace workspace;
   Overlaps overlaps;
-  const auto look_at = [&](const haptics::ContactBody& body, const Eigen::Isometry3d& X_WB, const std::string& name) {
+  const auto look_at = [&](const contact::ContactBody& body, const Eigen::Isometry3d& X_WB, const std::string& name) {
     const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * X_WV[part];
     if (!collision::intersects(body.tree, part_V.tree, X_BV, workspace)) return;
-    const double depth = haptics::overlap_depth(body, part_V, X_BV);
+    const double depth = contact::overlap_depth(body, part_V, X_BV);
     overlaps.depth = std::max(overlaps.depth, depth);
     overlaps.text += overlaps.text.empty() ? "" : ", ";
     overlaps.text += depth > 0.0 ? "at most " + rounded_text(1e3 * depth) + " mm deep in " + name : "touching " + name;
   };
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     look_at(*obstacle.body, obstacle.X_WO, obstacle.name);
   overlaps.with_obstacle = !overlaps.text.empty();
   for (std::size_t other = 0; other < part; ++other)
@@ -72,7 +72,7 @@ std::string overlap_advice(const HapticScene& scene, bool may_depenetrate) {
   for (const ScenePart& part : scene.parts)
     X_WV.push_back(part.X_WV_start);
   std::vector<Eigen::Isometry3d> moving_X_WB;
-  for (const haptics::ScriptedPart& part : scene.moving)
+  for (const contact::ScriptedPart& part : scene.moving)
     moving_X_WB.push_back(part.script_X_WB.pose_at(part.start));
   return overlap_advice(scene, X_WV, moving_X_WB, may_depenetrate);
 }

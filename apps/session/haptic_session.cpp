@@ -46,7 +46,7 @@ RecordedSession real_time_session(const HapticScene& scene, const std::vector<de
                                   std::chrono::nanoseconds period) {
   RecordedSession session{.scene_file = recorded_path(settings.record.scene_file),
                           .scene_hash = scene_hash(scene),
-                          .rules = haptics::real_time_rules(),
+                          .rules = contact::real_time_rules(),
                           .choice = settings.choice,
                           .period = period};
   for (std::size_t h = 0; h < gloves.size(); ++h)
@@ -57,8 +57,8 @@ RecordedSession real_time_session(const HapticScene& scene, const std::vector<de
 Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
                  const StartedSimulation& started, std::vector<std::int64_t> devices,
                  std::shared_ptr<const SessionRecorder> samples, std::optional<RealTimeFigures> real_time) {
-  const haptics::MultiPartSliding& sliding = started.simulation->parts();
-  const haptics::SearchStatistics& work = sliding.search_statistics();
+  const contact::MultiPartSliding& sliding = started.simulation->parts();
+  const contact::SearchStatistics& work = sliding.search_statistics();
   return {ticks,
           period,
           std::ssize(scene.body_names),
@@ -167,7 +167,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
   validate(record);
   for (const std::string& sentence : softer_devices({grip}, choice, haptics::kTickPeriod))
     say("glissade: " + sentence);
-  const haptics::MultiPartSliding& sliding = started.simulation->parts();
+  const contact::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   std::optional<haptics::LogRecorder> log;
   if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, grip, choice, record)));
@@ -210,9 +210,9 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const double most_s = settings.seconds + settings.longer_s;
   const std::int64_t ticks = std::llround(most_s / std::chrono::duration<double>(period).count());
-  StartedSimulation started = start_simulation(scene, grips, settings.choice, haptics::real_time_rules(), period);
+  StartedSimulation started = start_simulation(scene, grips, settings.choice, contact::real_time_rules(), period);
   watch({.sentences = softer_devices(grips, settings.choice, period)});
-  const haptics::MultiPartSliding& sliding = started.simulation->parts();
+  const contact::MultiPartSliding& sliding = started.simulation->parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
                                                           sliding.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);

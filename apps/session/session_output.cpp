@@ -362,7 +362,7 @@ std::string write_session_report(const SessionSummary& summary, const Session& s
 std::string real_time_warning(const Session& session) {
   if (!session.real_time) return "";
   constexpr double kOld_ms = 50.0;
-  const haptics::CallStatistics& calls = session.calls;
+  const contact::CallStatistics& calls = session.calls;
   if (2 * calls.ended_early > calls.calls) {
     return formatted(
         "the simulation did not keep up with real time: %lld of its %lld calls ended early, so the visible "

@@ -19,18 +19,18 @@ ClearanceCurve::ClearanceCurve(const HapticScene& scene, std::int64_t poses, std
       first_moving_(scene.obstacles.size()),
       own_number_(scene.obstacles.size() + part),
       every_(std::max<std::int64_t>(1, (poses + kMoments - 1) / kMoments)) {
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
   for (std::size_t other = 0; other < scene.parts.size(); ++other) {
     if (other != part)
       bodies_.push_back({.body_B = scene.parts[other].part_V.get(), .X_WB = Eigen::Isometry3d::Identity()});
   }
-  for (const haptics::ScriptedPart& moving : scene.moving)
+  for (const contact::ScriptedPart& moving : scene.moving)
     bodies_.push_back({.body_B = moving.part_B.get(), .X_WB = Eigen::Isometry3d::Identity()});
 }
 
 void ClearanceCurve::note(std::chrono::nanoseconds time, const Eigen::Isometry3d& X_WV,
-                          std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const haptics::Contact> contacts) {
+                          std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const contact::Contact> contacts) {
   if (noted_++ % every_ != 0) return;
   for (std::size_t b = first_moving_; b < bodies_.size(); ++b)
     bodies_[b].X_WB = moving_X_WB[b - first_moving_];
@@ -38,7 +38,7 @@ void ClearanceCurve::note(std::chrono::nanoseconds time, const Eigen::Isometry3d
   const auto limit_by = [&](const Pair& pair) { least = std::min(least, distance_of(pair, X_WV)); };
   const auto contact =
       std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  if (contact != contacts.end() && contact->kind != haptics::ContactKind::kOverlap) limit_by(pair_of(*contact));
+  if (contact != contacts.end() && contact->kind != contact::ContactKind::kOverlap) limit_by(pair_of(*contact));
   // What was nearest is still near, and the lower the limit, the sooner a search ends.
   if (nearest_) limit_by(*nearest_);
   const std::size_t first = nearest_ ? nearest_->body : 0;
@@ -48,7 +48,7 @@ void ClearanceCurve::note(std::chrono::nanoseconds time, const Eigen::Isometry3d
   series_.y.push_back(least < kFarthest_m ? 1e6 * least : std::numeric_limits<double>::quiet_NaN());
 }
 
-ClearanceCurve::Pair ClearanceCurve::pair_of(const haptics::Contact& contact) const {
+ClearanceCurve::Pair ClearanceCurve::pair_of(const contact::Contact& contact) const {
   // The part has a number too.
   const auto number = static_cast<std::size_t>(contact.obstacle);
   return {number > own_number_ ? number - 1 : number, {contact.obstacle_triangle, contact.part_triangle}};

@@ -15,7 +15,7 @@
 #include <glissade/apps/report/plot.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/collision/query_types.h>
-#include <glissade/haptics/sliding_result.h>
+#include <glissade/contact/sliding_result.h>
 
 namespace glissade::apps {
 
@@ -33,14 +33,14 @@ class ClearanceCurve {
   /// their order in the scene. `contacts`, at this pose or near it, save work: nothing farther away than their
   /// triangles is searched.
   void note(std::chrono::nanoseconds time, const Eigen::Isometry3d& X_WV,
-            std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const haptics::Contact> contacts = {});
+            std::span<const Eigen::Isometry3d> moving_X_WB, std::span<const contact::Contact> contacts = {});
 
   /// Micrometres over seconds.
   PlotSeries take(std::string name);
 
  private:
   struct Body {
-    const haptics::ContactBody* body_B;
+    const contact::ContactBody* body_B;
     Eigen::Isometry3d X_WB;
   };
 
@@ -49,11 +49,11 @@ class ClearanceCurve {
     collision::TrianglePair triangles;  ///< of the body and the part
   };
 
-  Pair pair_of(const haptics::Contact& contact) const;
+  Pair pair_of(const contact::Contact& contact) const;
   double distance_of(const Pair& pair, const Eigen::Isometry3d& X_WV) const;
   double distance_to(std::size_t b, const Eigen::Isometry3d& X_WV, double limit);
 
-  const haptics::SlidingPart& part_V_;
+  const contact::SlidingPart& part_V_;
   std::vector<Body> bodies_;  // obstacles, other parts, objects that move on their own
   std::size_t first_moving_;
   std::size_t own_number_;  // among the bodies of contacts

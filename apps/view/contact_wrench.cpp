@@ -1,11 +1,12 @@
 #include <glissade/apps/view/contact_wrench.h>
+#include <glissade/contact/spring.h>
 
 namespace glissade::apps {
 
-haptics::Wrench contact_wrench(const haptics::SlidingResult& result, const Eigen::Vector3d& p_Vref) {
+contact::Wrench contact_wrench(const contact::SlidingResult& result, const Eigen::Vector3d& p_Vref) {
   const Eigen::Vector3d p_Wref = result.X_WV_of_contacts * p_Vref;
-  haptics::Wrench sum;
-  for (const haptics::Contact& contact : result.contacts) {
+  contact::Wrench sum;
+  for (const contact::Contact& contact : result.contacts) {
     const Eigen::Vector3d f_W = contact.force * contact.n_W + contact.friction_W;
     sum.f += f_W;
     sum.t += (contact.p_W - p_Wref).cross(f_W);

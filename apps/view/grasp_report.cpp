@@ -8,6 +8,7 @@
 #include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/apps/view/session_view.h>
+#include <glissade/contact/spring.h>
 
 namespace glissade::apps {
 
@@ -63,11 +64,11 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   simulation_.tell_hands(answers_);
   const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
-    const haptics::SlidingResult& result = simulation_.parts().result(p);
+    const contact::SlidingResult& result = simulation_.parts().result(p);
     show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
     parts_.add(time_s, p, state.parts[p]);
     if (p >= scene_.parts.size()) continue;  // moves on its own
-    const haptics::Wrench wrench = contact_wrench(simulation_.parts().result(p), simulation_.parts().p_Vref(p));
+    const contact::Wrench wrench = contact_wrench(simulation_.parts().result(p), simulation_.parts().p_Vref(p));
     forces_[p].add(time_s, wrench.f);
     torques_[p].add(time_s, wrench.t);
     others_X_WB_.clear();

@@ -36,7 +36,7 @@ class GraspReport {
   const grasping::GraspSimulation& simulation_;
   ReplayMaker replay_;
   haptics::ContactSet answers_;                   // about the hands
-  std::vector<haptics::ContactPatches> patches_;  // by part
+  std::vector<contact::ContactPatches> patches_;  // by part
   std::int64_t ticks_ = 0;
   StripChart kinds_{"Kind of grasp", {}, {}};
   std::vector<GrowingCurve> touching_;  // by hand: segments

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include <glissade/apps/report/html_report.h>
+#include <glissade/contact/sliding_result.h>
+#include <glissade/contact/tracked_contacts.h>
 #include <glissade/devices/haptic_state.h>
-#include <glissade/haptics/sliding_result.h>
-#include <glissade/haptics/tracked_contacts.h>
 #include <glissade/viewer/view_frame.h>
 #include <glissade/viewer/view_scene.h>
 
@@ -48,7 +48,7 @@ class ReplayMaker {
 
 /// Writes a part of a simulation that runs by itself into a state, with the contacts that push on it, and their
 /// patches. `p_Vref` is the part's reference point.
-void show_part(const haptics::SlidingResult& result, const Eigen::Vector3d& p_Vref, std::size_t part,
-               haptics::ContactPatches& patches, devices::HapticState& state);
+void show_part(const contact::SlidingResult& result, const Eigen::Vector3d& p_Vref, std::size_t part,
+               contact::ContactPatches& patches, devices::HapticState& state);
 
 }  // namespace glissade::apps

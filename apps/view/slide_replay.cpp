@@ -3,6 +3,8 @@
 #include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/apps/view/slide_replay.h>
+#include <glissade/contact/spring.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -19,7 +21,7 @@ viewer::ViewScene slide_view_of(const HapticScene& scene) {
 SlideReplay::SlideReplay(const HapticScene& scene)
     : maker_(slide_view_of(scene)), part_({scene.parts.front().name}), patches_(scene.parts.front().part_V->radius()) {}
 
-void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding) {
+void SlideReplay::add(std::chrono::nanoseconds time, const reference::SlidingSimulation& sliding) {
   devices::HapticState state;
   state.sequence = ++ticks_;
   state.time = time;
@@ -28,7 +30,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const haptics::SlidingSimul
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;
   }
-  const haptics::Wrench wrench = contact_wrench(sliding.result(), sliding.part().p_Vref());
+  const contact::Wrench wrench = contact_wrench(sliding.result(), sliding.part().p_Vref());
   state.hands[0].part = 0;
   state.hands[0].force_W = wrench.f;
   state.hands[0].torque_V_W = wrench.t;

@@ -11,7 +11,7 @@
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
-#include <glissade/haptics/sliding_simulation.h>
+#include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {
 
@@ -20,7 +20,7 @@ class SlideReplay {
  public:
   explicit SlideReplay(const HapticScene& scene);
 
-  void add(std::chrono::nanoseconds time, const haptics::SlidingSimulation& sliding);
+  void add(std::chrono::nanoseconds time, const reference::SlidingSimulation& sliding);
   /// Adds the replay, and plots of wrench, lag, contacts and states; `of` ends the titles of those of the wrench. Once,
   /// at the end.
   void finish(Report& report, const std::string& of = {});
@@ -30,7 +30,7 @@ class SlideReplay {
   VectorCurve force_;
   VectorCurve torque_;
   PartCurves part_;
-  haptics::ContactPatches patches_;
+  contact::ContactPatches patches_;
   std::int64_t ticks_ = 0;
 };
 

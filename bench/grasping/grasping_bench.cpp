@@ -49,8 +49,8 @@ geometry::TriangleMesh ball() {
 
 Clasp clasp_of(geometry::TriangleMesh mesh, const Eigen::Isometry3d& X_WB) {
   auto shared = std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
-  const grasping::ClaspRules rules{.work_budget = grasping::work_of_hand(haptics::real_time_rules())};
-  Clasp clasp(hand_chain(), {}, {std::make_shared<const haptics::SlidingPart>(std::move(shared))}, rules);
+  const grasping::ClaspRules rules{.work_budget = grasping::work_of_hand(contact::real_time_rules())};
+  Clasp clasp(hand_chain(), {}, {std::make_shared<const contact::SlidingPart>(std::move(shared))}, rules);
   clasp.place_object(0, X_WB);
   return clasp;
 }
@@ -184,15 +184,15 @@ Posture round_ball(double closed) {
 }
 
 /// 98 things of a household on a shelf.
-std::vector<haptics::Obstacle> shelf() {
+std::vector<contact::Obstacle> shelf() {
   constexpr std::size_t kThings = 98;
   constexpr double kEdge_m = 8e-3;
-  std::vector<std::shared_ptr<const haptics::ContactBody>> bodies;
+  std::vector<std::shared_ptr<const contact::ContactBody>> bodies;
   for (const shapes::HouseholdObject& kind : shapes::household_objects()) {
-    bodies.push_back(std::make_shared<const haptics::ContactBody>(
+    bodies.push_back(std::make_shared<const contact::ContactBody>(
         std::make_shared<const geometry::TriangleMesh>(kind.make(kEdge_m))));
   }
-  std::vector<haptics::Obstacle> things;
+  std::vector<contact::Obstacle> things;
   for (std::size_t i = 0; i < kThings; ++i) {
     const auto column = static_cast<double>(i % 14);
     const auto row = static_cast<double>(i / 14);
@@ -206,11 +206,11 @@ std::vector<haptics::Obstacle> shelf() {
 CallTimes hands_at_shelf(benchmark::State& state, int repeats) {
   constexpr double kApart_m = 0.5;
   const auto mesh = std::make_shared<const geometry::TriangleMesh>(ball());
-  const auto part = std::make_shared<const haptics::SlidingPart>(mesh);
+  const auto part = std::make_shared<const contact::SlidingPart>(mesh);
   grasping::GraspSimulation simulation(shelf(),
                                        {{.part_V = part, .X_WV_start = at(0.095, 0.0, -0.058)},
                                         {.part_V = part, .X_WV_start = at(0.095 + kApart_m, 0.0, -0.058)}},
-                                       {hand_model(), hand_model()}, {.sliding = haptics::real_time_rules()});
+                                       {hand_model(), hand_model()}, {.sliding = contact::real_time_rules()});
   CallTimes times;
   int holding = 0;
   for (int i = 0; i < repeats; ++i) {

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/multi_part_sliding.h>
 
 #include "benches.h"
 #include "call_times.h"
@@ -32,8 +32,8 @@ constexpr double kMillisecond_s = 1e-3;
 constexpr double kLongestCatchUp_ms = 250.0;  // as the server
 
 /// Down by `depth` at `speed` (m/s), then to and fro along x, 15 mm to either side.
-SlidingScene pressed_and_dragged(const std::string& name, haptics::Obstacle obstacle,
-                                 std::shared_ptr<const haptics::SlidingPart> part_V, const Isometry3d& X_WV_start,
+SlidingScene pressed_and_dragged(const std::string& name, contact::Obstacle obstacle,
+                                 std::shared_ptr<const contact::SlidingPart> part_V, const Isometry3d& X_WV_start,
                                  double depth, double speed) {
   SlidingScene scene;
   scene.name = name;
@@ -75,11 +75,11 @@ SlidingScene ball_in_socket(const std::string& name) {
 
 /// Leads the part as the server's simulation thread does: the newest ghost at the beginning of each call, calls at
 /// least a millisecond apart.
-void lead_in_real_time(benchmark::State& state, const SlidingScene& scene, const haptics::SlidingRules& rules,
+void lead_in_real_time(benchmark::State& state, const SlidingScene& scene, const contact::SlidingRules& rules,
                        int ticks) {
   using Clock = std::chrono::steady_clock;
   using Milliseconds = std::chrono::duration<double, std::milli>;
-  haptics::MultiPartSliding sliding(scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}}, rules);
+  contact::MultiPartSliding sliding(scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}}, rules);
   CallTimes ages;  // of the ghost that the newest poses answer, each millisecond
   CallTimes calls;
   double lag_sum_mm = 0.0;  // of the visible part behind the ghost
@@ -110,12 +110,12 @@ void lead_in_real_time(benchmark::State& state, const SlidingScene& scene, const
 }  // namespace
 
 void register_ages(const BenchOptions& options) {
-  haptics::SlidingRules without_budget = haptics::real_time_rules();
+  contact::SlidingRules without_budget = contact::real_time_rules();
   without_budget.work_budget.reset();
   const auto add = [&](const std::string& name, const std::function<SlidingScene(const std::string& name)>& make) {
     const auto scene = lazy([=] { return make(name); });
     for (const auto& [subject, rules] :
-         {std::pair("without-budget", without_budget), std::pair("with-budget", haptics::real_time_rules())}) {
+         {std::pair("without-budget", without_budget), std::pair("with-budget", contact::real_time_rules())}) {
       const auto run = [=, rules = rules, ticks = options.quick ? 1000 : 2000](benchmark::State& state) {
         for (auto _ : state)
           lead_in_real_time(state, **scene, rules, ticks);

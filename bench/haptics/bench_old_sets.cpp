@@ -11,8 +11,9 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/multi_part_sliding.h>
 
 #include "benches.h"
 #include "held_part.h"
@@ -114,17 +115,17 @@ struct Answers {
 };
 
 /// The scene's part, in the hand.
-haptics::MultiPartSliding held(const SlidingScene& scene, const haptics::SlidingRules& rules) {
+contact::MultiPartSliding held(const SlidingScene& scene, const contact::SlidingRules& rules) {
   return {scene.obstacles, {{.part_V = scene.part_V, .X_WV_start = scene.X_WV_start}}, rules};
 }
 
-Vector3d force_of(const haptics::MultiPartSliding& sliding) {
-  return haptics::spring_wrench(sliding.stiffness(0), sliding.error(0)).f;
+Vector3d force_of(const contact::MultiPartSliding& sliding) {
+  return contact::spring_wrench(sliding.stiffness(0), sliding.error(0)).f;
 }
 
 Answers answers_of(const SlidingScene& scene, int ticks) {
-  haptics::MultiPartSliding slow = held(scene, {});
-  haptics::MultiPartSliding sliding = held(scene, {.contacts_ahead_ms = haptics::real_time_rules().contacts_ahead_ms});
+  contact::MultiPartSliding slow = held(scene, {});
+  contact::MultiPartSliding sliding = held(scene, {.contacts_ahead_ms = contact::real_time_rules().contacts_ahead_ms});
   Answers answers;
   std::vector<haptics::UrgentContact> scratch;
   for (int tick = 0; tick < ticks; ++tick) {
@@ -144,7 +145,7 @@ Answers answers_of(const SlidingScene& scene, int ticks) {
 }
 
 /// A spring of 1 N/m at each contact of the set that the ghost violates.
-Vector3d unit_penalty(const ContactSet& set, const Isometry3d& X_WG, const haptics::SlidingPart& part) {
+Vector3d unit_penalty(const ContactSet& set, const Isometry3d& X_WG, const contact::SlidingPart& part) {
   const geometry::Displacement d =
       geometry::displacement_between(set.parts[0].X_WV_of_rows, X_WG * set.parts[0].X_GT, part.p_Vref());
   Vector3d sum = Vector3d::Zero();
@@ -156,7 +157,7 @@ Vector3d unit_penalty(const ContactSet& set, const Isometry3d& X_WG, const hapti
 }
 
 /// The stiffness of these springs with which the force of new sets fits the scene best, N/m.
-double best_penalty_stiffness(const Answers& answers, const haptics::SlidingPart& part) {
+double best_penalty_stiffness(const Answers& answers, const contact::SlidingPart& part) {
   double products = 0.0;
   double squares = 0.0;
   for (std::size_t i = 0; i < answers.sets.size(); ++i) {
@@ -188,9 +189,9 @@ OldSets old_sets_of(SlidingScene scene, bool quick) {
 using ForceAt = std::function<Vector3d(std::size_t tick, std::size_t then)>;
 
 ForceAt our_force(const OldSets& sets, int age) {
-  const haptics::SlidingPart& part = *sets.scene.part_V;
+  const contact::SlidingPart& part = *sets.scene.part_V;
   auto contacts = std::make_shared<test_support::OneHandForce>(
-      part.p_Vref(), part.radius(), haptics::default_stiffness(part.radius()), kUnlimited, sets.scene.X_WV_start);
+      part.p_Vref(), part.radius(), contact::default_stiffness(part.radius()), kUnlimited, sets.scene.X_WV_start);
   return [&sets, age, contacts](std::size_t tick, std::size_t then) {
     return contacts->update(sets.answers.sets[then], milliseconds(age), sets.answers.X_WG[tick], kTick_s).f;
   };

@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/certified_bodies.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/haptics/certified_bodies.h>
 
 namespace glissade::grasping {
 
@@ -28,7 +28,7 @@ void advance(const Posture& from, const ChainStep& step, double t, Posture& to);
 std::vector<std::size_t> links_that_touch(const KinematicChain& chain);
 
 /// A step as a motion of the links that touch. The chain must outlive this object.
-class ChainMotion final : public haptics::BodiesMotion {
+class ChainMotion final : public contact::BodiesMotion {
  public:
   ChainMotion(const KinematicChain& chain, std::span<const std::size_t> movers);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glissade/haptics/sliding_rules.h>
+#include <glissade/contact/sliding_rules.h>
 
 #include "clasp/slide_past.h"
 
@@ -20,7 +20,7 @@ constexpr int kShortSteps = 2;
 // into them.
 constexpr double kGrazing_m = 0.1e-3;
 // Of the margin of the hand: a step of one value alone takes no more of a wider margin either.
-constexpr double kTakenAlone = 1.0 - haptics::kMinClearanceOfMargin;
+constexpr double kTakenAlone = 1.0 - contact::kMinClearanceOfMargin;
 constexpr int kRetries = 4;  // with the contacts that a proof has missed
 constexpr int kHalvings = 6;
 constexpr double kSame = 0.01;
@@ -38,7 +38,7 @@ double greatest_radius(const KinematicChain& chain, std::span<const std::size_t>
 }  // namespace
 
 ChainStepFinder::ChainStepFinder(const KinematicChain& chain, std::span<const std::size_t> movers,
-                                 haptics::CertifiedBodies& bodies, double touching)
+                                 contact::CertifiedBodies& bodies, double touching)
     : movers_(movers),
       bodies_(bodies),
       sight_(movers.size(), bodies.greatest_margin() + touching),
@@ -59,7 +59,7 @@ std::int64_t ChainStepFinder::work() const {
   return bodies_.work() + interpolations_ * kWorkOfInterpolation;
 }
 
-const std::vector<haptics::Contact>& ChainStepFinder::contacts() {
+const std::vector<contact::Contact>& ChainStepFinder::contacts() {
   if (!is_found_here_) {
     sight_.choose_least();
     bodies_.look(sight_.reach());
@@ -155,7 +155,7 @@ bool ChainStepFinder::go(bool slides) {
     if (prove()) return true;
     if (failures_.empty()) break;
     is_in_doubt_ = true;
-    for (const haptics::Contact& failure : failures_)
+    for (const contact::Contact& failure : failures_)
       rows_.add(failure, movers_[static_cast<std::size_t>(failure.part)]);
   }
   return go_on_by_halves();
@@ -174,7 +174,7 @@ bool ChainStepFinder::go_on_by_halves() {
 /// Leaves out the links whose motion cannot be proven free, so that they do not hold up the others.
 bool ChainStepFinder::go_without_failures() {
   for (int retry = 0; retry < kRetries && !failures_.empty(); ++retry) {
-    for (const haptics::Contact& failure : failures_)
+    for (const contact::Contact& failure : failures_)
       rows_.bar(movers_[static_cast<std::size_t>(failure.part)]);
     failures_.clear();
     if (go(false)) return true;

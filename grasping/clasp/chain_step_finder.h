@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include <glissade/contact/certified_bodies.h>
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/haptics/certified_bodies.h>
 
 #include "clasp/chain_step.h"
 #include "clasp/closing_rows.h"
@@ -20,7 +20,7 @@ namespace glissade::grasping {
 class ChainStepFinder {
  public:
   /// `movers` are the links of the chain with meshes. `touching` (metres) as in `ClaspRules`.
-  ChainStepFinder(const KinematicChain& chain, std::span<const std::size_t> movers, haptics::CertifiedBodies& bodies,
+  ChainStepFinder(const KinematicChain& chain, std::span<const std::size_t> movers, contact::CertifiedBodies& bodies,
                   double touching);
 
   /// Begins a call of the clasp: what is short is counted anew.
@@ -38,8 +38,8 @@ class ChainStepFinder {
   bool is_slow() const;
 
   /// The contacts that count at the present posture.
-  const std::vector<haptics::Contact>& contacts();
-  /// Work of all calls so far, in the unit of `haptics::SlidingRules::work_budget`: rough.
+  const std::vector<contact::Contact>& contacts();
+  /// Work of all calls so far, in the unit of `contact::SlidingRules::work_budget`: rough.
   std::int64_t work() const;
 
  private:
@@ -56,7 +56,7 @@ class ChainStepFinder {
   bool find_slide();
 
   std::span<const std::size_t> movers_;
-  haptics::CertifiedBodies& bodies_;
+  contact::CertifiedBodies& bodies_;
   Sight sight_;
   ChainMotion motion_;
   ClosingRows rows_;
@@ -71,9 +71,9 @@ class ChainStepFinder {
   int short_steps_ = 0;       // of this call
   std::size_t alone_ = 0;     // the flex value whose turn it is
   std::int64_t interpolations_ = 0;
-  std::vector<haptics::Contact> found_;
+  std::vector<contact::Contact> found_;
   bool is_found_here_ = false;  // at the present posture
-  std::vector<haptics::Contact> failures_;
+  std::vector<contact::Contact> failures_;
   std::vector<double> forces_;
 };
 

@@ -4,7 +4,7 @@
 
 namespace glissade::grasping {
 
-void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span<const haptics::Contact> contacts,
+void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span<const contact::Contact> contacts,
                       std::span<const std::size_t> movers) {
   planes_.clear();
   gaps_.clear();
@@ -13,11 +13,11 @@ void ClosingRows::set(const Posture& posture, const ChainStep& wanted, std::span
   root_ = wanted.root;
   wanted_ = wanted.values;
   chain_.poses(posture.X_WR, posture.values, X_WL_);
-  for (const haptics::Contact& contact : contacts)
+  for (const contact::Contact& contact : contacts)
     add(contact, movers[static_cast<std::size_t>(contact.part)]);
 }
 
-void ClosingRows::add(const haptics::Contact& contact, std::size_t link) {
+void ClosingRows::add(const contact::Contact& contact, std::size_t link) {
   const Eigen::Vector3d r_W = contact.p_W - p_WR_;
   planes_.push_back({contact.n_W, r_W, std::max(0.0, contact.gap - contact.margin)});
   gaps_.push_back({link, contact.gap - contact.margin});

@@ -9,8 +9,8 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/sliding_result.h>
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/haptics/sliding_result.h>
 
 #include "clasp/chain_step.h"
 #include "clasp/slide_past.h"
@@ -27,10 +27,10 @@ class ClosingRows {
         shortfalls_(chain.links().size()) {}
 
   /// Computes all rows anew. `contacts` number the links by `movers`.
-  void set(const Posture& posture, const ChainStep& wanted, std::span<const haptics::Contact> contacts,
+  void set(const Posture& posture, const ChainStep& wanted, std::span<const contact::Contact> contacts,
            std::span<const std::size_t> movers);
   /// Adds a row to them.
-  void add(const haptics::Contact& contact, std::size_t link);
+  void add(const contact::Contact& contact, std::size_t link);
   /// Lets every contact of a link come as near, for its margin, as the nearest one of this link is already.
   void share_shortfalls();
   /// Adds a row that no mover of this link may close, whichever way it moves the link.

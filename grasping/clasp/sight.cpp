@@ -18,7 +18,7 @@ Sight::Sight(std::size_t movers, double least)
       next_reach_(movers, kGreatestReach_m),
       limit_(movers, kFirstLimit_m) {}
 
-void Sight::choose(const haptics::BodiesMotion& motion, double margin) {
+void Sight::choose(const contact::BodiesMotion& motion, double margin) {
   for (std::size_t m = 0; m < reach_.size(); ++m) {
     const double wanted = 1.5 * motion.length(m) + 2.0 * margin;
     reach_[m] = std::clamp(wanted, least_, std::min(next_reach_[m], limit_[m]));
@@ -29,13 +29,13 @@ void Sight::choose_least() {
   std::fill(reach_.begin(), reach_.end(), least_);
 }
 
-void Sight::note_found(const haptics::CertifiedBodies& bodies) {
+void Sight::note_found(const contact::CertifiedBodies& bodies) {
   for (std::size_t m = 0; m < reach_.size(); ++m)
     limit_[m] = std::clamp(bodies.pair_count(m) > kAffordablePairs ? 0.5 * reach_[m] : 1.25 * limit_[m], least_,
                            kGreatestReach_m);
 }
 
-void Sight::note_taken(const haptics::BodiesMotion* motion) {
+void Sight::note_taken(const contact::BodiesMotion* motion) {
   for (std::size_t m = 0; m < reach_.size(); ++m) {
     const double taken = motion != nullptr ? motion->length(m) : 0.0;
     const bool is_clipped = taken > 0.9 * kStepOfReach * reach_[m];
@@ -44,7 +44,7 @@ void Sight::note_taken(const haptics::BodiesMotion* motion) {
   }
 }
 
-double Sight::share_of(const haptics::BodiesMotion& motion) const {
+double Sight::share_of(const contact::BodiesMotion& motion) const {
   double share = 1.0;
   for (std::size_t m = 0; m < reach_.size(); ++m) {
     const double seen = kStepOfReach * reach_[m];

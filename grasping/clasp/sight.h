@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <glissade/haptics/bodies_motion.h>
-#include <glissade/haptics/certified_bodies.h>
+#include <glissade/contact/bodies_motion.h>
+#include <glissade/contact/certified_bodies.h>
 
 namespace glissade::grasping {
 
@@ -24,16 +24,16 @@ class Sight {
   std::span<const double> reach() const { return reach_; }
 
   /// For a step that would be this motion, if nothing were in the way.
-  void choose(const haptics::BodiesMotion& motion, double margin);
+  void choose(const contact::BodiesMotion& motion, double margin);
   /// Only contacts that count.
   void choose_least();
   /// What the last look has found.
-  void note_found(const haptics::CertifiedBodies& bodies);
+  void note_found(const contact::CertifiedBodies& bodies);
   /// The step that was taken; null: none was.
-  void note_taken(const haptics::BodiesMotion* motion);
+  void note_taken(const contact::BodiesMotion* motion);
 
   /// The share of the motion on which no link goes beyond what it has seen.
-  double share_of(const haptics::BodiesMotion& motion) const;
+  double share_of(const contact::BodiesMotion& motion) const;
 
  private:
   double least_;

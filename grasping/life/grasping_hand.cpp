@@ -26,8 +26,8 @@ bool is_usable(const Posture& target, std::size_t values) {
 
 }  // namespace
 
-GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<haptics::Obstacle>& fixed,
-                           std::vector<std::shared_ptr<const haptics::SlidingPart>> parts, const ClaspRules& rules)
+GraspingHand::GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<contact::Obstacle>& fixed,
+                           std::vector<std::shared_ptr<const contact::SlidingPart>> parts, const ClaspRules& rules)
     : model_(std::move(model)),
       links_(links_that_touch(model_->chain)),
       first_part_(static_cast<std::int32_t>(fixed.size())),
@@ -149,10 +149,10 @@ void GraspingHand::analyze(double milliseconds, const Eigen::Vector3d& up_W, con
 }
 
 std::vector<GraspingHand> make_hands(const std::vector<std::shared_ptr<const HandModel>>& models,
-                                     const std::vector<haptics::Obstacle>& fixed,
-                                     const std::vector<haptics::HeldPart>& parts, const ClaspRules& rules) {
-  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies;
-  for (const haptics::HeldPart& part : parts)
+                                     const std::vector<contact::Obstacle>& fixed,
+                                     const std::vector<contact::HeldPart>& parts, const ClaspRules& rules) {
+  std::vector<std::shared_ptr<const contact::SlidingPart>> bodies;
+  for (const contact::HeldPart& part : parts)
     bodies.push_back(part.part_V);
   std::vector<GraspingHand> hands;
   hands.reserve(models.size());

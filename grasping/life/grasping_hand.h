@@ -11,11 +11,11 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/contact_body.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/haptics/contact_body.h>
-#include <glissade/haptics/sliding_rules.h>
 
 #include "life/held_contacts.h"
 #include "life/link_speeds.h"
@@ -29,8 +29,8 @@ class GraspingHand {
   /// How deep the target of a segment may lie in a loose part before the part yields.
   static constexpr double kResistance_m = 1e-3;
 
-  GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<haptics::Obstacle>& fixed,
-               std::vector<std::shared_ptr<const haptics::SlidingPart>> parts, const ClaspRules& rules);
+  GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<contact::Obstacle>& fixed,
+               std::vector<std::shared_ptr<const contact::SlidingPart>> parts, const ClaspRules& rules);
 
   const Clasp& clasp() const { return clasp_; }
   Clasp& clasp() { return clasp_; }
@@ -100,7 +100,7 @@ class GraspingHand {
 
 /// A hand for each model, among these bodies. Throws std::invalid_argument for a null model, and as `Clasp` does.
 std::vector<GraspingHand> make_hands(const std::vector<std::shared_ptr<const HandModel>>& models,
-                                     const std::vector<haptics::Obstacle>& fixed,
-                                     const std::vector<haptics::HeldPart>& parts, const ClaspRules& rules);
+                                     const std::vector<contact::Obstacle>& fixed,
+                                     const std::vector<contact::HeldPart>& parts, const ClaspRules& rules);
 
 }  // namespace glissade::grasping

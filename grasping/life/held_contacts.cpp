@@ -62,7 +62,7 @@ void HeldContacts::update(const std::vector<LinkContact>& contacts, std::int32_t
       if (is_of_both && (deepest == nullptr || touch.depth > deepest->depth)) deepest = &touch;
     }
     if (deepest != nullptr) {
-      const haptics::Contact& contact = deepest->contact;
+      const contact::Contact& contact = deepest->contact;
       std::vector<double> rates = opening_rates(*deepest);
       const double opened = sum_of(rates, visible.values);
       last = {*deepest,
@@ -82,7 +82,7 @@ void HeldContacts::update(const std::vector<LinkContact>& contacts, std::int32_t
       left_.push_back(link);
       last.reset();
     } else if (away < kNear_m) {
-      haptics::Contact& contact = last->touch.contact;
+      contact::Contact& contact = last->touch.contact;
       contact.n_W = X_WV.linear() * last->n_V;
       contact.p_W = X_WL_[link] * last->p_L;
       contact.gap = contact.margin + std::max(0.0, away);

@@ -9,7 +9,7 @@
 namespace glissade::grasping {
 
 LinkSpeeds::LinkSpeeds(std::shared_ptr<const KinematicChain> chain,
-                       std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies)
+                       std::vector<std::shared_ptr<const contact::SlidingPart>> bodies)
     : chain_(std::move(chain)),
       bodies_(std::move(bodies)),
       X_WL_(chain_->links().size()),
@@ -29,7 +29,7 @@ void LinkSpeeds::follow(const Posture& target, double milliseconds) {
   auto body = bodies_.begin();
   for (std::size_t link = 0; link < speeds_.size(); ++link) {
     if (chain_->links()[link].mesh == nullptr) continue;
-    const haptics::SlidingPart& part = **body++;
+    const contact::SlidingPart& part = **body++;
     const geometry::Displacement d = geometry::displacement_between(X_WL_last_[link], X_WL_[link], part.p_Vref());
     speeds_[link] += share_of_newest * (geometry::motion_bound(d, part.radius()) / milliseconds - speeds_[link]);
   }

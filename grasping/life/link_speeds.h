@@ -8,8 +8,8 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/contact_body.h>
 #include <glissade/grasping/kinematic_chain.h>
-#include <glissade/haptics/contact_body.h>
 
 namespace glissade::grasping {
 
@@ -20,7 +20,7 @@ class LinkSpeeds {
 
   /// `bodies` are the links with meshes, in their order.
   LinkSpeeds(std::shared_ptr<const KinematicChain> chain,
-             std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies);
+             std::vector<std::shared_ptr<const contact::SlidingPart>> bodies);
 
   /// The tracker has lost the hand: what it did until it is found again is no motion.
   void forget();
@@ -32,7 +32,7 @@ class LinkSpeeds {
 
  private:
   std::shared_ptr<const KinematicChain> chain_;
-  std::vector<std::shared_ptr<const haptics::SlidingPart>> bodies_;
+  std::vector<std::shared_ptr<const contact::SlidingPart>> bodies_;
   bool has_last_ = false;
   std::vector<Eigen::Isometry3d> X_WL_;
   std::vector<Eigen::Isometry3d> X_WL_last_;

@@ -10,7 +10,7 @@ void Push::clear() {
 }
 
 void Push::add(const GraspingHand& hand, std::int32_t body, const Eigen::Isometry3d& X_WV,
-               const haptics::SlidingPart& part) {
+               const contact::SlidingPart& part) {
   for (const LinkContact& touch : hand.clasp().contacts()) {
     if (touch.contact.obstacle == body) add(touch, hand.speed_of(touch.link), X_WV * part.p_Vref());
   }

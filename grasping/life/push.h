@@ -7,8 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/contact_body.h>
 #include <glissade/geometry/displacement.h>
-#include <glissade/haptics/contact_body.h>
 
 #include "clasp/slide_past.h"
 #include "life/grasping_hand.h"
@@ -33,7 +33,7 @@ class Push {
   void clear();
   /// Adds the contacts of a hand with the part, whose number as a body is `body`, at X_WV.
   void add(const GraspingHand& hand, std::int32_t body, const Eigen::Isometry3d& X_WV,
-           const haptics::SlidingPart& part);
+           const contact::SlidingPart& part);
   void add(const LinkContact& touch, double link_m_per_ms, const Eigen::Vector3d& p_Wref);
 
   /// The shortest displacement of the part in so many milliseconds on which the targets of all hands lie no deeper than

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include <glissade/haptics/loop_simulation.h>
 
 namespace glissade::haptics {
 
@@ -37,13 +40,13 @@ Ghosts between(const Ghosts& from, const Ghosts& to, double share) {
 
 }  // namespace
 
-Answerer::Answerer(LoopSimulation& simulation)
-    : simulation_(simulation),
-      sliding_(simulation.parts()),
+Answerer::Answerer(SimulationInLoop simulation)
+    : simulation_(std::move(simulation)),
+      sliding_(simulation_->parts()),
       calls_before_(sliding_.call_statistics().calls),
       patches_(sliding_) {
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
-    if (!sliding_.is_scripted(p)) simulation_.leave_part(p);
+    if (!sliding_.is_scripted(p)) simulation_->leave_part(p);
   }
 }
 
@@ -54,7 +57,7 @@ ContactSet Answerer::at_start() const {
     set.parts[p].p_Vref = sliding_.p_Vref(p);
     set.parts[p].X_WV = sliding_.result(p).X_WV;
   }
-  simulation_.tell_hands(set);
+  simulation_->tell_hands(set);
   return set;
 }
 
@@ -62,8 +65,8 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
     const GhostOfPart& ghost = ghosts.parts[p];
     if (sliding_.is_scripted(p) || ghost.hold == holds_[p]) continue;
-    if (ghost.release > holds_[p]) simulation_.leave_part(p);
-    if (ghost.is_held) simulation_.take_part(p, ghost.X_WG);
+    if (ghost.release > holds_[p]) simulation_->leave_part(p);
+    if (ghost.is_held) simulation_->take_part(p, ghost.X_WG);
     holds_[p] = ghost.hold;
   }
   // An answer that takes long must not slow the parts down: the slew is a speed.
@@ -83,11 +86,11 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
   patches_.tell(set);
-  simulation_.tell_hands(set);
+  simulation_->tell_hands(set);
 }
 
 void Answerer::advance(const Ghosts& ghosts, double milliseconds) {
-  simulation_.advance(ghosts, milliseconds);
+  simulation_->advance(ghosts, milliseconds);
   ++calls_;
   times_[static_cast<std::size_t>(calls_) % times_.size()] = ghosts.time;
 }

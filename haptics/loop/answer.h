@@ -8,9 +8,9 @@
 #include <optional>
 #include <vector>
 
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/loop_simulation.h>
-#include <glissade/haptics/multi_part_sliding.h>
 
 #include "loop/contact_set_maker.h"
 #include "loop/patch_maker.h"
@@ -21,7 +21,7 @@ namespace glissade::haptics {
 class Answerer {
  public:
   /// Lets go of all parts without a script, which hands may take later. `simulation` must outlive this object.
-  explicit Answerer(LoopSimulation& simulation);
+  explicit Answerer(SimulationInLoop simulation);
 
   /// The set before the first answer.
   ContactSet at_start() const;
@@ -34,10 +34,10 @@ class Answerer {
   void answer(const Ghosts& ghosts, std::chrono::nanoseconds first, ContactSet& set);
 
  private:
-  LoopSimulation& simulation_;
-  const MultiPartSliding& sliding_;
-  std::int64_t calls_before_;                    // of `MultiPartSliding::advance`, by others
-  std::array<std::int64_t, kMaxParts> holds_{};  // those that the simulation knows
+  SimulationInLoop simulation_;
+  const contact::MultiPartSliding& sliding_;
+  std::int64_t calls_before_;                             // of `MultiPartSliding::advance`, by others
+  std::array<std::int64_t, contact::kMaxParts> holds_{};  // those that the simulation knows
   std::optional<Ghosts> answered_;
   void advance(const Ghosts& ghosts, double milliseconds);
   std::chrono::nanoseconds time_of_answered() const;

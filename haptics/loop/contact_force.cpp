@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glissade/contact/spring.h>
+
 #include "loop/smooth.h"
 
 namespace glissade::haptics {
@@ -12,12 +14,12 @@ constexpr double kFastestGhost = 2.0;  // m/s; motion beyond is no reason for a 
 constexpr double kReturn_s = 0.2;
 
 /// N: the force or, if greater, the force at the radius that has this torque.
-double size_of(const Wrench& wrench, double radius) {
+double size_of(const contact::Wrench& wrench, double radius) {
   return std::max(wrench.f.norm(), wrench.t.norm() / radius);
 }
 
 /// Scaled down as a whole, so that its size is at most `most`.
-Wrench limited(const Wrench& wrench, double most, double radius) {
+contact::Wrench limited(const contact::Wrench& wrench, double most, double radius) {
   const double size = size_of(wrench, radius);
   return size > most ? scaled(wrench, most / size) : wrench;
 }
@@ -29,28 +31,28 @@ double force_share(std::chrono::nanoseconds age) noexcept {
   return smoothly_down(Seconds(age).count(), Seconds(kFullForce).count(), Seconds(kForceless).count());
 }
 
-const Wrench& ContactForce::update(const PartContacts& contacts, std::chrono::nanoseconds age, double ghost_motion,
-                                   double dt) noexcept {
-  const Wrench all = limited(contacts.wrench, max_force_, radius_);
+const contact::Wrench& ContactForce::update(const PartContacts& contacts, std::chrono::nanoseconds age,
+                                            double ghost_motion, double dt) noexcept {
+  const contact::Wrench all = limited(contacts.wrench, max_force_, radius_);
   const double share_of_age = force_share(age);
   share_ = std::min(share_of_age * contacts.known, share_ + dt / kReturn_s);
-  const Wrench wanted = scaled(all, share_);
+  const contact::Wrench wanted = scaled(all, share_);
 
-  constexpr double kSlew_m_per_s = kSlew_m / 1e-3;
+  constexpr double kSlew_m_per_s = contact::kSlew_m / 1e-3;
   double longest = stiffness_.translational * (kSlew_m_per_s * dt + 2.0 * std::min(ghost_motion, kFastestGhost * dt));
   if (size_of(wanted, radius_) < size_of(wrench_, radius_)) {
     longest = std::max(longest, max_force_ * dt / std::chrono::duration<double>(kLongestFall).count());
   }
-  const Wrench change{wanted.f - wrench_.f, wanted.t - wrench_.t};
+  const contact::Wrench change{wanted.f - wrench_.f, wanted.t - wrench_.t};
   const double size = size_of(change, radius_);
   if (size <= longest) {
     wrench_ = wanted;
   } else {
-    const Wrench step = scaled(change, longest / size);
+    const contact::Wrench step = scaled(change, longest / size);
     wrench_ = {wrench_.f + step.f, wrench_.t + step.t};
   }
   wrench_ = limited(wrench_, share_of_age * max_force_, radius_);
-  withheld_ = share_ < 1.0 ? Wrench{all.f - wrench_.f, all.t - wrench_.t} : Wrench{};
+  withheld_ = share_ < 1.0 ? contact::Wrench{all.f - wrench_.f, all.t - wrench_.t} : contact::Wrench{};
   return wrench_;
 }
 

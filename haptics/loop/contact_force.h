@@ -5,6 +5,7 @@
 
 #include <chrono>
 
+#include <glissade/contact/spring.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 
@@ -26,18 +27,18 @@ class ContactForce {
  public:
   /// For the hand's coupling to a part, no point of which is farther from the reference point than `radius` (metres).
   /// The force, and that at the radius which has the torque, never exceeds `max_force` (N), that of the device.
-  ContactForce(double radius, const CouplingStiffness& stiffness, double max_force)
+  ContactForce(double radius, const contact::CouplingStiffness& stiffness, double max_force)
       : radius_(radius), stiffness_(stiffness), max_force_(max_force) {}
 
   /// From now on the hand holds another part. The force of the last one goes on from where it is.
-  void hold(double radius, const CouplingStiffness& stiffness) noexcept {
+  void hold(double radius, const contact::CouplingStiffness& stiffness) noexcept {
     radius_ = radius;
     stiffness_ = stiffness;
   }
 
   /// The reference point, about which the wrench is, is elsewhere from now on: both points in the world.
   void move_reference(const Eigen::Vector3d& p_from, const Eigen::Vector3d& p_to) noexcept {
-    wrench_ = about_point(wrench_, p_from, p_to);
+    wrench_ = contact::about_point(wrench_, p_from, p_to);
   }
 
   /// The wrench on the hand, `dt` (seconds) after the last call, for contacts from a set of this age. Exactly zero
@@ -45,21 +46,21 @@ class ContactForce {
   /// k_t times kSlew_m a millisecond and twice the ghost's own motion (`ghost_motion`, metres since the last call), or
   /// falls by the largest force within kLongestFall, or as fast as the share of an old set. The torque counts by its
   /// force at the radius.
-  const Wrench& update(const PartContacts& contacts, std::chrono::nanoseconds age, double ghost_motion,
-                       double dt) noexcept;
+  const contact::Wrench& update(const PartContacts& contacts, std::chrono::nanoseconds age, double ghost_motion,
+                                double dt) noexcept;
 
   /// The share of its force that the set may exert, which the force follows within kLongestFall: less than 1 where it
   /// is old, or where its contacts are not known any more, and for 200 ms after that.
   double share() const noexcept { return share_; }
   /// What the contacts would exert more if they were new and known; zero while `share` is 1.
-  const Wrench& withheld() const noexcept { return withheld_; }
+  const contact::Wrench& withheld() const noexcept { return withheld_; }
 
  private:
   double radius_;
-  CouplingStiffness stiffness_;
+  contact::CouplingStiffness stiffness_;
   double max_force_;
-  Wrench wrench_;
-  Wrench withheld_;
+  contact::Wrench wrench_;
+  contact::Wrench withheld_;
   double share_ = 1.0;  // of its force that the set exerts
 };
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include <glissade/contact/spring.h>
+
 #include "loop/smooth.h"
 
 namespace glissade::haptics {
@@ -14,7 +16,7 @@ constexpr double kKnown_m = 3e-3;
 constexpr double kUnknown_m = 9e-3;
 
 /// The motion of the contact point of a row across its normal, metres.
-double across(const CoupledRow& row, std::span<const geometry::Displacement> d) {
+double across(const contact::CoupledRow& row, std::span<const geometry::Displacement> d) {
   const geometry::Displacement& own = d[static_cast<std::size_t>(row.part)];
   Eigen::Vector3d u = own.v + own.w.cross(row.r);
   if (row.other >= 0) {
@@ -93,7 +95,7 @@ void ContactProjection::choose_island(std::size_t first) noexcept {
   in_island_.clear();
   numbers_.clear();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    CoupledRow row = rows_[i].row;
+    contact::CoupledRow row = rows_[i].row;
     row.part = local_[static_cast<std::size_t>(row.part)];
     row.other = row.other < 0 ? -1 : local_[static_cast<std::size_t>(row.other)];
     if (row.part < 0 && row.other < 0) continue;
@@ -108,8 +110,8 @@ void ContactProjection::choose_island(std::size_t first) noexcept {
 }
 
 void ContactProjection::solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept {
-  std::array<geometry::Displacement, kMaxParts> wanted;
-  std::array<CouplingStiffness, kMaxParts> stiffness{};
+  std::array<geometry::Displacement, contact::kMaxParts> wanted;
+  std::array<contact::CouplingStiffness, contact::kMaxParts> stiffness{};
   std::size_t count = 0;
   for (std::size_t p = 0; p < part_count_; ++p) {
     if (local_[p] < 0) continue;
@@ -117,13 +119,13 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
     stiffness[count] = parts[p].stiffness;
     ++count;
   }
-  CoupledProjection projection;
+  contact::CoupledProjection projection;
   projection.displacements = wanted;
   if (!in_island_.empty()) {
     projection =
         solver_.project({wanted.data(), count}, {stiffness.data(), count}, {in_island_.data(), in_island_.size()});
   }
-  const bool is_unsolved = projection.status != ProjectionStatus::kSolved;
+  const bool is_unsolved = projection.status != contact::ProjectionStatus::kSolved;
   for (std::size_t p = 0; p < part_count_; ++p) {
     if (local_[p] < 0) continue;
     contacts_[p].is_unsolved = is_unsolved;
@@ -150,8 +152,9 @@ void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP,
 }
 
 /// Adds the force of an active row to the parts on both sides that act.
-void ContactProjection::add_push(std::size_t row_number, double push, const CoupledProjection& projection) noexcept {
-  const CoupledRow& projected = in_island_[row_number];
+void ContactProjection::add_push(std::size_t row_number, double push,
+                                 const contact::CoupledProjection& projection) noexcept {
+  const contact::CoupledRow& projected = in_island_[row_number];
   const ContactRow& row = *rows_[numbers_[row_number]].in_set;
   const double known =
       push * smoothly_down(across(projected, projection.displacements) - row.range, kKnown_m, kUnknown_m);

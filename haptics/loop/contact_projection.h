@@ -14,10 +14,10 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/projection.h>
+#include <glissade/contact/spring.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
-
-#include "solver/projection.h"
 
 namespace glissade::haptics {
 
@@ -25,13 +25,13 @@ namespace glissade::haptics {
 struct LedPart {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
-  CouplingStiffness stiffness{};  ///< of all hands that hold the part
-  bool acts = false;              ///< a hand holds the part, and the rows of the set are about this hold
+  contact::CouplingStiffness stiffness{};  ///< of all hands that hold the part
+  bool acts = false;                       ///< a hand holds the part, and the rows of the set are about this hold
 };
 
 /// The contacts of one part.
 struct PartContacts {
-  Wrench wrench;             ///< on the hands, about the part's reference point
+  contact::Wrench wrench;    ///< on the hands, about the part's reference point
   double known = 1.0;        ///< share of the force whose rows are known to hold where the projection is
   bool is_unsolved = false;  ///< the rows have no solution, and there is no wrench
   double from_hands = 0.0;   ///< J: work on the part since the last call of parts in other hands
@@ -62,31 +62,31 @@ class ContactProjection {
   void choose_island(std::size_t first) noexcept;
   void solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept;
   void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, const Eigen::Vector3d& p_Vref, double dt) noexcept;
-  void add_push(std::size_t row_number, double push, const CoupledProjection& projection) noexcept;
+  void add_push(std::size_t row_number, double push, const contact::CoupledProjection& projection) noexcept;
 
   struct ActiveRow {
-    CoupledRow row;  // as it is now; the numbers of parts are those in the scene
-    double way;      // metres of a body that moves without a hand, along n since the last call
+    contact::CoupledRow row;  // as it is now; the numbers of parts are those in the scene
+    double way;               // metres of a body that moves without a hand, along n since the last call
     const ContactRow* in_set;
   };
 
   std::size_t part_count_;
-  ProjectionSolver solver_;
-  std::vector<ActiveRow> rows_;                  // in range
-  std::array<std::size_t, kMaxParts> island_{};  // of each part: the lowest number of a part in it
+  contact::ProjectionSolver solver_;
+  std::vector<ActiveRow> rows_;                           // in range
+  std::array<std::size_t, contact::kMaxParts> island_{};  // of each part: the lowest number of a part in it
   // The island at work: its parts, its rows with the numbers that the parts have in it, and where these are in rows_.
-  std::array<std::int32_t, kMaxParts> local_{};  // number of each part in the island; −1: it is not there
-  std::vector<CoupledRow> in_island_;
+  std::array<std::int32_t, contact::kMaxParts> local_{};  // number of each part in the island; −1: it is not there
+  std::vector<contact::CoupledRow> in_island_;
   std::vector<std::size_t> numbers_;
-  std::array<bool, kMaxParts> acts_{};
-  std::array<geometry::Displacement, kMaxParts> wanted_{};
+  std::array<bool, contact::kMaxParts> acts_{};
+  std::array<geometry::Displacement, contact::kMaxParts> wanted_{};
   // Since the poses of the rows: the last step, and the ghosts since that.
-  std::array<geometry::Displacement, kMaxParts> moved_{};
-  std::array<std::optional<Eigen::Isometry3d>, kMaxParts> X_WP_{};  // where the last projection put each part
-  std::array<geometry::Displacement, kMaxParts> way_{};             // from there to where the present one puts it
-  std::array<double, kMaxParts> pushes_{};                          // N, sums over the rows of each part
-  std::array<double, kMaxParts> known_pushes_{};
-  std::array<PartContacts, kMaxParts> contacts_{};
+  std::array<geometry::Displacement, contact::kMaxParts> moved_{};
+  std::array<std::optional<Eigen::Isometry3d>, contact::kMaxParts> X_WP_{};  // where the last projection put each part
+  std::array<geometry::Displacement, contact::kMaxParts> way_{};  // from there to where the present one puts it
+  std::array<double, contact::kMaxParts> pushes_{};               // N, sums over the rows of each part
+  std::array<double, contact::kMaxParts> known_pushes_{};
+  std::array<PartContacts, contact::kMaxParts> contacts_{};
 };
 
 }  // namespace glissade::haptics

@@ -7,11 +7,11 @@ namespace {
 
 class SetMaker {
  public:
-  SetMaker(const MultiPartSliding& sliding, ContactSet& set, std::vector<UrgentContact>& scratch)
+  SetMaker(const contact::MultiPartSliding& sliding, ContactSet& set, std::vector<UrgentContact>& scratch)
       : sliding_(sliding), set_(set), order_(scratch) {}
 
   void add(std::size_t p) {
-    const SlidingResult& result = sliding_.result(p);
+    const contact::SlidingResult& result = sliding_.result(p);
     PartAnswer& part = set_.parts[p] = {};
     part.p_Vref = sliding_.p_Vref(p);
     part.X_WV = result.X_WV;
@@ -31,18 +31,18 @@ class SetMaker {
 
  private:
   bool is_led_by_hand(std::size_t p) const {
-    return !sliding_.is_scripted(p) && sliding_.result(p).state != SlidingState::kReleased;
+    return !sliding_.is_scripted(p) && sliding_.result(p).state != contact::SlidingState::kReleased;
   }
 
   /// The part on the other side of the contact, if a hand leads it; otherwise −1.
-  std::int32_t other_of(const Contact& contact) const {
+  std::int32_t other_of(const contact::Contact& contact) const {
     const std::int32_t other = sliding_.part_of_body(contact.obstacle);
     return other >= 0 && is_led_by_hand(static_cast<std::size_t>(other)) ? other : -1;
   }
 
   /// The most urgent contacts come first. A contact of two parts is in the results of both.
   void choose_contacts(std::size_t p) {
-    const std::vector<Contact>& contacts = sliding_.result(p).contacts;
+    const std::vector<contact::Contact>& contacts = sliding_.result(p).contacts;
     order_.clear();
     for (std::size_t i = 0; i < contacts.size(); ++i) {
       const std::int32_t other = other_of(contacts[i]);
@@ -58,8 +58,9 @@ class SetMaker {
     std::sort(order_.begin(), kept, more_urgent);
   }
 
-  void add_row(std::size_t p, const Contact& contact) {
-    const ConstraintRow constraint{contact.n_W, contact.p_W - p_Wref(p), std::min(0.0, contact.margin - contact.gap)};
+  void add_row(std::size_t p, const contact::Contact& contact) {
+    const contact::ConstraintRow constraint{contact.n_W, contact.p_W - p_Wref(p),
+                                            std::min(0.0, contact.margin - contact.gap)};
     ContactRow& row = set_.row_array[static_cast<std::size_t>(set_.row_count++)];
     row = {{constraint, static_cast<std::int32_t>(p), other_of(contact)}, contact.range};
     row.pushes = contact.force > 0.0;
@@ -73,21 +74,21 @@ class SetMaker {
 
   Eigen::Vector3d p_Wref(std::size_t p) const { return sliding_.result(p).X_WV_of_contacts * sliding_.p_Vref(p); }
 
-  const MultiPartSliding& sliding_;
+  const contact::MultiPartSliding& sliding_;
   ContactSet& set_;
   std::vector<UrgentContact>& order_;
 };
 
 }  // namespace
 
-ContactSet make_contact_set(const MultiPartSliding& sliding, std::int64_t sequence, std::chrono::nanoseconds time,
-                            std::vector<UrgentContact>& scratch) {
+ContactSet make_contact_set(const contact::MultiPartSliding& sliding, std::int64_t sequence,
+                            std::chrono::nanoseconds time, std::vector<UrgentContact>& scratch) {
   ContactSet set;
   renew_contact_set(sliding, sequence, time, scratch, set);
   return set;
 }
 
-void renew_contact_set(const MultiPartSliding& sliding, std::int64_t sequence, std::chrono::nanoseconds time,
+void renew_contact_set(const contact::MultiPartSliding& sliding, std::int64_t sequence, std::chrono::nanoseconds time,
                        std::vector<UrgentContact>& scratch, ContactSet& set) {
   set.sequence = sequence;
   set.time = time;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glissade/contact/spring.h>
+
 namespace glissade::haptics {
 namespace {
 
@@ -27,7 +29,7 @@ FingerLoad::FingerLoad(const devices::DeviceDescriptor& device, std::span<const 
     bears_[j] = false;
 }
 
-const devices::JointValues& FingerLoad::update(const HandAnswer& hand, std::int32_t part, const Wrench& load,
+const devices::JointValues& FingerLoad::update(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load,
                                                const Eigen::Vector3d& p_Wref, double radius,
                                                const devices::JointValues& angles, double dt) noexcept {
   count_energy(angles, dt);
@@ -45,8 +47,8 @@ const devices::JointValues& FingerLoad::update(const HandAnswer& hand, std::int3
 }
 
 /// By projected Gauss–Seidel sweeps from zero.
-void FingerLoad::share(const HandAnswer& hand, std::int32_t part, const Wrench& load, const Eigen::Vector3d& p_Wref,
-                       double radius, const devices::JointValues& angles) noexcept {
+void FingerLoad::share(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load,
+                       const Eigen::Vector3d& p_Wref, double radius, const devices::JointValues& angles) noexcept {
   forces_.fill(0.0);
   const std::span<const FingerRow> rows = hand.rows();
   Vector6 left;

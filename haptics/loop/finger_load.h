@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/contact/spring.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
@@ -36,7 +37,7 @@ class FingerLoad {
   /// The torques (Nm, positive toward larger angles) `dt` (seconds) after the last call. The load is the wrench on the
   /// hand about the world point `p_Wref`; the part has the number `part`, and no point of it is farther from there than
   /// `radius` (metres); −1: the hand holds none. `angles` are those of the glove (rad).
-  const devices::JointValues& update(const HandAnswer& hand, std::int32_t part, const Wrench& load,
+  const devices::JointValues& update(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load,
                                      const Eigen::Vector3d& p_Wref, double radius, const devices::JointValues& angles,
                                      double dt) noexcept;
 
@@ -46,7 +47,7 @@ class FingerLoad {
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-  void share(const HandAnswer& hand, std::int32_t part, const Wrench& load, const Eigen::Vector3d& p_Wref,
+  void share(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load, const Eigen::Vector3d& p_Wref,
              double radius, const devices::JointValues& angles) noexcept;
   void count_energy(const devices::JointValues& angles, double dt) noexcept;
 

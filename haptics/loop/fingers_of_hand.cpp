@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/contact/spring.h>
+
 namespace glissade::haptics {
 namespace {
 
@@ -56,8 +58,8 @@ bool FingersOfHand::is_new(std::int64_t decision) noexcept {
 
 devices::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,
                                             std::chrono::nanoseconds age, std::optional<std::size_t> held,
-                                            const Wrench& on_hand, const Eigen::Vector3d& p_Wref, double radius,
-                                            double dt) noexcept {
+                                            const contact::Wrench& on_hand, const Eigen::Vector3d& p_Wref,
+                                            double radius, double dt) noexcept {
   const std::int32_t number = held ? static_cast<std::int32_t>(*held) : -1;
   devices::JointValues sum = forces_.update(state.joint_angles, answer, age);
   const devices::JointValues& of_load = load_.update(answer, number, on_hand, p_Wref, radius, state.joint_angles, dt);

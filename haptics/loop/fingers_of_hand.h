@@ -8,6 +8,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/spring.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
@@ -38,8 +39,8 @@ class FingersOfHand {
   /// Torques (Nm) of the springs at the joints, and of the load `on_hand` (about the world point `p_Wref`) of the part
   /// with the number `held`, no point of which is farther from there than `radius` (metres).
   devices::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
-                               std::optional<std::size_t> held, const Wrench& on_hand, const Eigen::Vector3d& p_Wref,
-                               double radius, double dt) noexcept;
+                               std::optional<std::size_t> held, const contact::Wrench& on_hand,
+                               const Eigen::Vector3d& p_Wref, double radius, double dt) noexcept;
 
   /// Notes the newest state if it can be trusted, or null, and the part that the hand holds.
   void note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept;

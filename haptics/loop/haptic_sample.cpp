@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <glissade/contact/spring.h>
+
 namespace glissade::haptics {
 
 namespace {
@@ -21,7 +23,7 @@ devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
   const devices::GloveCommand& command = tick.command.values();
   const Eigen::Vector3d& p_WH = state.X_WH.translation();
   const Eigen::Vector3d p_Wabout = tick.part ? Eigen::Vector3d(set.parts[*tick.part].X_WV.translation()) : p_WH;
-  const Wrench on_hand = about_point({command.f_H_W, command.t_H_W}, p_WH, p_Wabout);
+  const contact::Wrench on_hand = contact::about_point({command.f_H_W, command.t_H_W}, p_WH, p_Wabout);
   devices::HapticHandState hand;
   hand.part = tick.part ? static_cast<std::int32_t>(*tick.part) : -1;
   hand.force_W = on_hand.f;
@@ -55,7 +57,7 @@ void add_contacts(const ContactSet& set, devices::HapticState& sample) noexcept 
 
 devices::HapticState make_sample(const TickRecord& record, const ContactSet& set,
                                  std::span<const devices::GloveState* const> states) noexcept {
-  static_assert(kMaxParts == devices::kHapticParts && kMaxHands == devices::kHapticHands);
+  static_assert(contact::kMaxParts == devices::kHapticParts && kMaxHands == devices::kHapticHands);
   const HapticTick& tick = record.tick;
   devices::HapticState sample;
   sample.sequence = record.sequence;

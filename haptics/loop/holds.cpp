@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <glissade/contact/spring.h>
 #include <glissade/geometry/displacement.h>
 
 namespace glissade::haptics {
@@ -13,7 +14,7 @@ constexpr double kLeave_s = 0.05;
 
 }  // namespace
 
-Holds::Holds(std::size_t parts, std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness)
+Holds::Holds(std::size_t parts, std::vector<std::array<contact::CouplingStiffness, contact::kMaxParts>> stiffness)
     : stiffness_(std::move(stiffness)), hands_(stiffness_.size()), parts_(parts), led_(parts) {}
 
 std::size_t Holds::holders_of(std::size_t part) const noexcept {
@@ -120,12 +121,12 @@ void Holds::combine(std::size_t number) noexcept {
   const Eigen::Vector3d& p_Vref = parts_[number].p_Vref;
   LedPart& led = led_[number];
   const Hand* first = nullptr;
-  CouplingStiffness sum{0.0, 0.0};
+  contact::CouplingStiffness sum{0.0, 0.0};
   geometry::Displacement mean{};  // from the first hand's ghost
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     const Hand& hand = hands_[h];
     if (hand.part != number) continue;
-    const CouplingStiffness& k = stiffness_[h][number];
+    const contact::CouplingStiffness& k = stiffness_[h][number];
     if (first == nullptr) {
       first = &hand;
       led.X_WG = hand.X_WG;
@@ -154,11 +155,11 @@ void Holds::combine(std::size_t number) noexcept {
     hand.torque_share = 1.0;
     hand.pull = {};
     if (!is_shared) continue;
-    const CouplingStiffness own{hand.weight * stiffness_[h][number].translational,
-                                hand.weight * stiffness_[h][number].rotational};
+    const contact::CouplingStiffness own{hand.weight * stiffness_[h][number].translational,
+                                         hand.weight * stiffness_[h][number].rotational};
     hand.force_share = own.translational / sum.translational;
     hand.torque_share = own.rotational / sum.rotational;
-    hand.pull = spring_wrench(own, geometry::displacement_between(led.X_WG, hand.X_WG, p_Vref));
+    hand.pull = contact::spring_wrench(own, geometry::displacement_between(led.X_WG, hand.X_WG, p_Vref));
   }
 }
 
@@ -183,7 +184,7 @@ void Holds::aim(std::size_t number, const ContactSet& set) noexcept {
   led.acts = true;
 }
 
-Wrench Holds::on_hand(std::size_t hand, const Wrench& contacts) const {
+contact::Wrench Holds::on_hand(std::size_t hand, const contact::Wrench& contacts) const {
   return {hands_[hand].force_share * contacts.f, hands_[hand].torque_share * contacts.t};
 }
 
@@ -198,7 +199,7 @@ double Holds::ghost_motion(std::size_t number, double radius) const {
   return geometry::motion_bound(ghost_way(number), radius);
 }
 
-double Holds::work_against(std::size_t hand, const Wrench& wrench) const {
+double Holds::work_against(std::size_t hand, const contact::Wrench& wrench) const {
   if (!hands_[hand].part) return 0.0;
   const geometry::Displacement way = ghost_way(*hands_[hand].part);
   return -wrench.f.dot(way.v) - wrench.t.dot(way.w);

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/spring.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 
@@ -36,7 +37,7 @@ struct HandPose {
 class Holds {
  public:
   /// For so many parts, and the stiffness with which each hand holds each part.
-  Holds(std::size_t parts, std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness);
+  Holds(std::size_t parts, std::vector<std::array<contact::CouplingStiffness, contact::kMaxParts>> stiffness);
 
   /// In the next call of `update` in which the hand has a pose, it takes hold of the part, and lets go of any other.
   void grasp(std::size_t hand, std::size_t part) noexcept { hands_[hand].wanted = part; }
@@ -56,10 +57,10 @@ class Holds {
   /// The ghost of the part as this hand alone would have it.
   const Eigen::Isometry3d& ghost_of_hand(std::size_t hand) const { return hands_[hand].X_WG; }
   /// The hand's share of the contacts' wrench, and the pull of the other hands on it, about the part's reference point.
-  Wrench on_hand(std::size_t hand, const Wrench& contacts) const;
-  Wrench pull_on(std::size_t hand) const { return hands_[hand].pull; }
+  contact::Wrench on_hand(std::size_t hand, const contact::Wrench& contacts) const;
+  contact::Wrench pull_on(std::size_t hand) const { return hands_[hand].pull; }
   /// Work (J) of the hand in the last tick against a wrench on it about the reference point of the part that it holds.
-  double work_against(std::size_t hand, const Wrench& wrench) const;
+  double work_against(std::size_t hand, const contact::Wrench& wrench) const;
   /// The hand's share of the energy that the part's contacts supply.
   double supply_share(std::size_t hand) const { return hands_[hand].force_share; }
 
@@ -79,7 +80,7 @@ class Holds {
     bool is_lost = false;  // has faded away while others held the part
     double force_share = 1.0;
     double torque_share = 1.0;
-    Wrench pull;
+    contact::Wrench pull;
   };
   struct Part {
     GhostOfPart ghost;
@@ -100,7 +101,7 @@ class Holds {
   void combine(std::size_t part) noexcept;
   void aim(std::size_t part, const ContactSet& set) noexcept;
 
-  std::vector<std::array<CouplingStiffness, kMaxParts>> stiffness_;
+  std::vector<std::array<contact::CouplingStiffness, contact::kMaxParts>> stiffness_;
   std::vector<Hand> hands_;
   std::vector<Part> parts_;
   std::vector<LedPart> led_;

@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glissade/haptics/coupling.h>
+#include <glissade/contact/spring.h>
+#include <glissade/contact/spring.h>
 
 namespace glissade::haptics {
 
@@ -20,14 +21,14 @@ struct LeverLimit {
   double lever;          ///< l, metres
 
   /// The largest share s ≤ 1 of such a spring that is passive.
-  double share_of(const CouplingStiffness& K) const noexcept {
+  double share_of(const contact::CouplingStiffness& K) const noexcept {
     const double both = translational * rotational;
     const double sum = K.translational * rotational + K.rotational * translational + of_lever(K.translational);
     return smaller_root(K.translational * K.rotational, sum, both);
   }
 
   /// The largest share d ≤ 1 of the second spring that is passive beside the first one, which is.
-  double share_beside(const CouplingStiffness& K, const CouplingStiffness& second) const noexcept {
+  double share_beside(const contact::CouplingStiffness& K, const contact::CouplingStiffness& second) const noexcept {
     const double left = translational - K.translational;
     const double left_r = rotational - K.rotational;
     const double sum = left * second.rotational + left_r * second.translational + of_lever(second.translational);

@@ -144,7 +144,7 @@ bool is_message_of(const AnswerRecord& record, std::span<const std::uint8_t> byt
 }
 
 std::optional<ConsumedByAnswer> decode_answer(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::int32_t, 4> kLargest{kMaxParts, kMaxParts * kMaxContactRows, kMaxHands,
+  constexpr std::array<std::int32_t, 4> kLargest{contact::kMaxParts, contact::kMaxParts * kMaxContactRows, kMaxHands,
                                                  kMaxHands * kMaxFingerRows};
   const auto message = from_bytes<contact_set_t>(bytes, kLargest);
   if (!message) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <span>
 #include <utility>
 
+#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
 #include "loop/answer.h"
@@ -36,10 +37,10 @@ std::chrono::microseconds logged(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-Replay::Replay(LoopSimulation& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
-               RecordingHead head)
-    : kernel_(kernel_parts(simulation.parts()), hands, period),
-      part_count_(static_cast<std::int32_t>(simulation.parts().part_count())),
+Replay::Replay(const SimulationInLoop& simulation, const std::vector<KernelHand>& hands,
+               std::chrono::nanoseconds period, RecordingHead head)
+    : kernel_(kernel_parts(simulation->parts()), hands, period),
+      part_count_(static_cast<std::int32_t>(simulation->parts().part_count())),
       events_(std::move(head)),
       answerer_(std::make_unique<Answerer>(simulation)) {
   record_.hand_count = static_cast<std::int32_t>(hands.size());

@@ -22,9 +22,9 @@
 #include <glissade/apps/record/mcap_schemas.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/text.h>
+#include <glissade/contact/sliding.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/geometry/pose_trajectory.h>
-#include <glissade/haptics/sliding.h>
 #include <glissade/shapes/shape_catalog.h>
 
 #include "glissade_program.h"
@@ -266,9 +266,9 @@ TEST_F(ScenePages, EveryKeyIsInAnExample) {
 TEST_F(ScenePages, DefaultsAndLimitsAreThoseOfTheLibrary) {
   const Texts grip = code_spans(scenes.row("### Object", "grip_N_per_m")[2]);
   ASSERT_EQ(grip.size(), 1U);
-  const haptics::ScriptedPart defaults{nullptr, geometry::PoseTrajectory({geometry::TimedPose{}})};
+  const contact::ScriptedPart defaults{nullptr, geometry::PoseTrajectory({geometry::TimedPose{}})};
   EXPECT_EQ(parse_number(grip.front()), defaults.grip_N_per_m);
-  EXPECT_THAT(scenes.row("### Object", "margin_m")[1], HasSubstr(format_number(haptics::kGreatestMargin_m)));
+  EXPECT_THAT(scenes.row("### Object", "margin_m")[1], HasSubstr(format_number(contact::kGreatestMargin_m)));
 }
 
 TEST_F(ScenePages, TheCatalogueHasEveryShapeWithParametersAndDefaults) {

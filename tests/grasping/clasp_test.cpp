@@ -9,9 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/clasp.h>
-#include <glissade/haptics/sliding_rules.h>
 #include <glissade/shapes/household_objects.h>
 
 #include "clasped_hand.h"
@@ -101,8 +101,8 @@ TEST(Clasp, ClosesTightRoundABallAndStaysOutside) {
 }
 
 TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
-  constexpr double kMargin_m = haptics::kGreatestMargin_m;
-  const auto ball = std::make_shared<const haptics::ContactBody>(
+  constexpr double kMargin_m = contact::kGreatestMargin_m;
+  const auto ball = std::make_shared<const contact::ContactBody>(
       std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000)));
   Clasp clasp(hand_chain(), {{ball, at(0.095, 0.0, -0.056), "the ball", kMargin_m}}, {});
   clasp.advance(open_hand());
@@ -116,7 +116,7 @@ TEST(Clasp, TouchesAnObstacleWithAWideMarginToo) {
 TEST(Clasp, GoesIntoNoObstacleWithASmallMargin) {
   const geometry::TriangleMesh mesh = shapes::household_objects()[0].make(8e-3);
   ClaspedHand check(mesh, Eigen::Isometry3d::Identity());
-  const auto body = std::make_shared<const haptics::ContactBody>(std::make_shared<const geometry::TriangleMesh>(mesh));
+  const auto body = std::make_shared<const contact::ContactBody>(std::make_shared<const geometry::TriangleMesh>(mesh));
   Clasp clasp(hand_chain(), {{body, Eigen::Isometry3d::Identity(), "the ball", 2e-6}}, {});
   const WildHand wild(700000, test_support::WildMotion::kRandom, mesh);
   clasp.move_cart(wild.at_ms(0));
@@ -129,7 +129,7 @@ TEST(Clasp, GoesIntoNoObstacleWithASmallMargin) {
 }
 
 TEST(Clasp, GoesOnInTheNextCallsWhereTheBudgetOfWorkIsUsedUp) {
-  const auto ball = std::make_shared<const haptics::SlidingPart>(
+  const auto ball = std::make_shared<const contact::SlidingPart>(
       std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000)));
   Clasp clasp(hand_chain(), {}, {ball}, {.work_budget = 1});
   clasp.place_object(0, at(0.095, 0.0, -0.056));

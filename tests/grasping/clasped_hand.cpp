@@ -42,7 +42,7 @@ ClaspedHand::ClaspedHand(std::shared_ptr<const grasping::KinematicChain> chain, 
 ClaspedHand::ClaspedHand(std::shared_ptr<const grasping::KinematicChain> chain,
                          std::shared_ptr<const geometry::TriangleMesh> object, const Eigen::Isometry3d& X_WB,
                          const grasping::ClaspRules& rules)
-    : clasp(std::move(chain), {}, {std::make_shared<const haptics::SlidingPart>(object)}, rules),
+    : clasp(std::move(chain), {}, {std::make_shared<const contact::SlidingPart>(object)}, rules),
       check_({{std::move(object), X_WB}}) {
   clasp.place_object(0, X_WB);
 }

@@ -43,10 +43,10 @@ struct BallAndWall {
   Isometry3d X_WBall = at(0.07, -0.006, -0.057);
   Isometry3d X_WWall = at(0.25, 0.0, 0.0);
 
-  GraspSimulation simulation(std::size_t hands, const haptics::SlidingRules& rules = {},
+  GraspSimulation simulation(std::size_t hands, const contact::SlidingRules& rules = {},
                              const ClaspRules& clasp = {}) const {
-    return {{{std::make_shared<const haptics::ContactBody>(wall), X_WWall, "the wall"}},
-            {{.part_V = std::make_shared<const haptics::SlidingPart>(ball), .X_WV_start = X_WBall}},
+    return {{{std::make_shared<const contact::ContactBody>(wall), X_WWall, "the wall"}},
+            {{.part_V = std::make_shared<const contact::SlidingPart>(ball), .X_WV_start = X_WBall}},
             std::vector<std::shared_ptr<const HandModel>>(hands, hand_model()),
             {.clasp = clasp, .sliding = rules}};
   }

@@ -90,7 +90,7 @@ TEST(GraspSimulation, CouplesAHeldPartWhereTheSceneSays) {
   const Vector3d chosen(0.0, 0.0, 0.03);
   GraspSimulation simulation(
       {},
-      {{.part_V = std::make_shared<const haptics::SlidingPart>(ball, chosen), .X_WV_start = at(0.095, 0.0, -0.056)}},
+      {{.part_V = std::make_shared<const contact::SlidingPart>(ball, chosen), .X_WV_start = at(0.095, 0.0, -0.056)}},
       {test_support::hand_model()});
   for (int ms = 0; ms < 400 && !simulation.held_part(0); ++ms)
     simulation.advance(std::vector<std::optional<Posture>>{bent_hand(1.2 * std::min(1.0, ms / 150.0))});
@@ -183,7 +183,7 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
 }
 
 TEST(GraspSimulation, PushesAPartThatRepeatsMotionsAndNeverBack) {
-  HandAndBall scene(1, 0.25, haptics::Metaphor::kIncremental);
+  HandAndBall scene(1, 0.25, contact::Metaphor::kIncremental);
   const Posture hand = moved(open_hand(), -0.15, 0.0, -0.056);
   scene.advance(hand);
   for (int ms = 1; ms <= 1200; ++ms)
@@ -197,7 +197,7 @@ TEST(GraspSimulation, PushesAPartThatRepeatsMotionsAndNeverBack) {
 }
 
 TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
-  HandAndBall scene(1, 0.25, haptics::Metaphor::kIncremental);
+  HandAndBall scene(1, 0.25, contact::Metaphor::kIncremental);
   close_round_ball(scene);
   for (int ms = 1; ms <= 300; ++ms)
     scene.advance(moved(bent_hand(1.2), 0.3e-3 * ms, 0.0, 0.0));

@@ -26,14 +26,14 @@ inline constexpr double kBallRadius_m = 0.035;
 class HandAndBall {
  public:
   explicit HandAndBall(std::size_t hands = 1, double wall_x = 0.25,
-                       haptics::Metaphor metaphor = haptics::Metaphor::kForceFeedback)
+                       contact::Metaphor metaphor = contact::Metaphor::kForceFeedback)
       : ball_(std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 2000))),
         wall_(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000))),
         X_WWall_(test_support::at(wall_x, 0.0, 0.0)),
         wall_check_({{wall_, X_WWall_}}),
         ball_check_({{ball_, Eigen::Isometry3d::Identity()}}),
-        simulation({{std::make_shared<const haptics::ContactBody>(wall_), X_WWall_, "the wall"}},
-                   {{.part_V = std::make_shared<const haptics::SlidingPart>(ball_),
+        simulation({{std::make_shared<const contact::ContactBody>(wall_), X_WWall_, "the wall"}},
+                   {{.part_V = std::make_shared<const contact::SlidingPart>(ball_),
                      .X_WV_start = test_support::at(0.095, 0.0, -0.056),
                      .metaphor = metaphor}},
                    std::vector<std::shared_ptr<const HandModel>>(hands, test_support::hand_model()), rules()),
@@ -122,7 +122,7 @@ class HandAndBall {
   /// The same on the ways of the last call. First the ball moves, with the hands that hold it, among the hands that do
   /// not; then the hands move.
   bool has_collided_since(const State& before) const {
-    const haptics::SlidingResult& ball = simulation.parts().result(0);
+    const contact::SlidingResult& ball = simulation.parts().result(0);
     const bool has_moved = !ball.X_WV.isApprox(before.X_WV, 0.0);
     if (has_moved && (ball_has_collided(before, before.X_WV, ball.X_WV_before_step) ||
                       ball_has_collided(before, ball.X_WV_before_step, ball.X_WV)))

@@ -157,10 +157,10 @@ const grasping::Grasp& GraspTrial::advance(const Posture& target) {
   return analysis_.update(hand_.clasp.contacts(), 1.0, grasp_.up_W);
 }
 
-LooseGraspTrial::LooseGraspTrial(const LabelledGrasp& grasp, const std::vector<haptics::Obstacle>& fixed)
+LooseGraspTrial::LooseGraspTrial(const LabelledGrasp& grasp, const std::vector<contact::Obstacle>& fixed)
     : grasp_(grasp),
       object_(std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(grasp.object, {}))),
-      simulation_(fixed, {{.part_V = std::make_shared<const haptics::SlidingPart>(object_), .X_WV_start = grasp.X_WB}},
+      simulation_(fixed, {{.part_V = std::make_shared<const contact::SlidingPart>(object_), .X_WV_start = grasp.X_WB}},
                   {hand_model()}, {.up_W = grasp.up_W}) {}
 
 bool LooseGraspTrial::close() {

@@ -67,7 +67,7 @@ class GraspTrial {
 /// The same with an object that is loose: the hand pushes it, takes hold of it, and carries it.
 class LooseGraspTrial {
  public:
-  explicit LooseGraspTrial(const LabelledGrasp& grasp, const std::vector<haptics::Obstacle>& fixed = {});
+  explicit LooseGraspTrial(const LabelledGrasp& grasp, const std::vector<contact::Obstacle>& fixed = {});
 
   /// Follows `target_at` for kClosed_ms. Returns whether the hand holds the object then.
   bool close();

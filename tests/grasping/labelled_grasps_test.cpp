@@ -127,7 +127,7 @@ TEST(LabelledGrasps, ACoinIsPickedUpFromATable) {
   }
   constexpr double kTop_m = -0.0605;  // touches the coin nearly
   const auto table = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.6, 0.6, 0.02}, 400));
-  LooseGraspTrial trial(grasp, {{std::make_shared<const haptics::ContactBody>(table),
+  LooseGraspTrial trial(grasp, {{std::make_shared<const contact::ContactBody>(table),
                                  test_support::at(0.1, 0.0, kTop_m - 0.01), "table"}});
   EXPECT_TRUE(trial.close()) << reason_of(trial.grasp());
   EXPECT_EQ(trial.grasp().form, GraspForm::kTipPinch) << reason_of(trial.grasp());

@@ -34,7 +34,7 @@ class PushedBall : public ::testing::Test {
   double speed_m_per_ms = 1.0;
 
  private:
-  haptics::SlidingPart ball_{std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 500))};
+  contact::SlidingPart ball_{std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 500))};
   Push push_;
 };
 

@@ -92,10 +92,10 @@ class ReachTrial {
       : reach_(reach),
         mesh_(std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(reach.thing.shape, {}))),
         X_WB_(pose_on_table()),
-        simulation_({{std::make_shared<const haptics::ContactBody>(
+        simulation_({{std::make_shared<const contact::ContactBody>(
                           std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.6, 0.6, 0.02}, 12))),
                       test_support::at(0.0, 0.0, -0.01), "table"}},
-                    {{.part_V = std::make_shared<const haptics::SlidingPart>(mesh_), .X_WV_start = X_WB_}},
+                    {{.part_V = std::make_shared<const contact::SlidingPart>(mesh_), .X_WV_start = X_WB_}},
                     {test_support::hand_model()}) {}
 
   /// 0.15 m at 0.3 m/s, then the fingers close in 0.4 s, and the hand lifts what it has by 0.1 m. Returns whether it

@@ -12,11 +12,11 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <glissade/contact/sliding.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
-#include <glissade/haptics/sliding.h>
 
 #include "allocation_counter.h"
 
@@ -68,9 +68,9 @@ class Server : public ::testing::Test {
     device_ = std::make_unique<SteppedDevice>(
         geometry::PoseTrajectory({{milliseconds(0), kStart}, {milliseconds(150), X_WH_end}}));
     const Coupling coupling = coupling_for(device_->descriptor(), {1000.0, 2.0});
-    sliding_ = std::make_unique<MultiPartSliding>(
-        std::vector<Obstacle>{{plate_}},
-        std::vector<HeldPart>{{.part_V = box_, .X_WV_start = kStart, .stiffness = coupling.stiffness}});
+    sliding_ = std::make_unique<contact::MultiPartSliding>(
+        std::vector<contact::Obstacle>{{plate_}},
+        std::vector<contact::HeldPart>{{.part_V = box_, .X_WV_start = kStart, .stiffness = coupling.stiffness}});
   }
 
   static void wait_for(const HapticServer& server) {
@@ -79,12 +79,12 @@ class Server : public ::testing::Test {
   }
 
   static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.03)};
-  std::shared_ptr<const ContactBody> plate_ =
-      std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
-  std::shared_ptr<const SlidingPart> box_ = std::make_shared<SlidingPart>(
+  std::shared_ptr<const contact::ContactBody> plate_ = std::make_shared<contact::ContactBody>(
+      std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
+  std::shared_ptr<const contact::SlidingPart> box_ = std::make_shared<contact::SlidingPart>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 12)));
   std::unique_ptr<SteppedDevice> device_;
-  std::unique_ptr<MultiPartSliding> sliding_;
+  std::unique_ptr<contact::MultiPartSliding> sliding_;
   realtime::SteadyClock clock_;
 };
 
@@ -150,10 +150,10 @@ TEST_F(Server, TheForceFadesAtTheEnd) {
 /// Parts, and a hand whose first joint something stops, far before the angle of the glove.
 class StoppedFinger final : public LoopSimulation {
  public:
-  explicit StoppedFinger(MultiPartSliding& parts) : parts_(parts) {}
-  const MultiPartSliding& parts() const override { return parts_; }
-  void take_part(std::size_t part, const Isometry3d& X_WG) override { parts_.grasp(part, X_WG); }
-  void leave_part(std::size_t part) override { parts_.release(part); }
+  explicit StoppedFinger(contact::MultiPartSliding& parts) : parts_(parts) {}
+  const contact::MultiPartSliding& parts() const override { return parts_.parts(); }
+  void take_part(std::size_t part, const Isometry3d& X_WG) override { parts_.take_part(part, X_WG); }
+  void leave_part(std::size_t part) override { parts_.leave_part(part); }
   void advance(const Ghosts& ghosts, double milliseconds) override { parts_.advance(ghosts, milliseconds); }
   void tell_hands(ContactSet& set) const override {
     HandAnswer& hand = set.hands[0];
@@ -164,7 +164,7 @@ class StoppedFinger final : public LoopSimulation {
   }
 
  private:
-  MultiPartSliding& parts_;
+  PartsInLoop parts_;
 };
 
 TEST_F(Server, TheTorquesOfFingersFadeAtTheEndToo) {

@@ -4,10 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
-#include <glissade/haptics/sliding.h>
 
 namespace glissade::haptics {
 namespace {
@@ -18,24 +19,25 @@ using Eigen::Vector3d;
 
 constexpr double kDepth = 0.01;  // metres that the wearer wants to go into the plate
 
-constexpr CouplingStiffness kHandStiffness{1000.0, 2.0};
+constexpr contact::CouplingStiffness kHandStiffness{1000.0, 2.0};
 
 Isometry3d at_height(double z) {
   return Isometry3d(Eigen::Translation3d(0.0, 0.0, z));
 }
 
-std::shared_ptr<const ContactBody> plate() {
-  return std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
+std::shared_ptr<const contact::ContactBody> plate() {
+  return std::make_shared<contact::ContactBody>(
+      std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
 }
 
 /// 40 mm high.
-std::shared_ptr<const SlidingPart> box() {
-  return std::make_shared<SlidingPart>(
+std::shared_ptr<const contact::SlidingPart> box() {
+  return std::make_shared<contact::SlidingPart>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 100)));
 }
 
 /// The hand moves down by 10 mm more than kDepth for half a second, and holds there for one.
-std::vector<HapticState> press_down(MultiPartSliding& sliding, std::size_t part = 0,
+std::vector<HapticState> press_down(contact::MultiPartSliding& sliding, std::size_t part = 0,
                                     std::chrono::nanoseconds period = kTickPeriod) {
   using std::chrono::milliseconds;
   const Isometry3d X_WH_start = sliding.result(part).X_WV;
@@ -49,13 +51,13 @@ std::vector<HapticState> press_down(MultiPartSliding& sliding, std::size_t part 
   return samples;
 }
 
-MultiPartSliding box_above_the_plate() {
+contact::MultiPartSliding box_above_the_plate() {
   return {{{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03), .stiffness = kHandStiffness}}};
 }
 
 /// A box is pressed on a plate.
 std::vector<HapticState> press_on_plate() {
-  MultiPartSliding sliding = box_above_the_plate();
+  contact::MultiPartSliding sliding = box_above_the_plate();
   return press_down(sliding);
 }
 
@@ -79,8 +81,9 @@ TEST(OfflineRun, AHandPressedAgainstAPlateComesToRestWhereTheSpringsBalance) {
 
 TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
   const auto part = box();
-  MultiPartSliding parts({{plate()}}, {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kHandStiffness},
-                                       {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kHandStiffness}});
+  contact::MultiPartSliding parts({{plate()}},
+                                  {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kHandStiffness},
+                                   {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kHandStiffness}});
   const std::vector<HapticState> samples = press_down(parts, 1);
   EXPECT_NEAR(samples.back().hands[0].force_W.z(), force_at_rest(), 0.01 * force_at_rest());
   EXPECT_NEAR(samples.back().parts[1].X_WV.translation().z(), 0.061, 20e-6);
@@ -88,9 +91,10 @@ TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
 }
 
 TEST(OfflineRun, PressesThePartOnThePlateByEveryMetaphorWithoutAJump) {
-  for (const Metaphor metaphor : {Metaphor::kForceFeedback, Metaphor::kRubberBand, Metaphor::kRubberBandSpring}) {
+  for (const contact::Metaphor metaphor :
+       {contact::Metaphor::kForceFeedback, contact::Metaphor::kRubberBand, contact::Metaphor::kRubberBandSpring}) {
     SCOPED_TRACE(name_of(metaphor));
-    MultiPartSliding sliding(
+    contact::MultiPartSliding sliding(
         {{plate()}},
         {{.part_V = box(), .X_WV_start = at_height(0.03), .metaphor = metaphor, .stiffness = kHandStiffness}});
     const std::vector<HapticState> samples = press_down(sliding);
@@ -112,21 +116,21 @@ TEST(OfflineRun, TheForceNeverJumps) {
         (samples[i].parts[0].X_WG.translation() - samples[i - 1].parts[0].X_WG.translation()).norm();
     const double jump = (samples[i].hands[0].force_W - samples[i - 1].hands[0].force_W).norm();
     // The damper at most doubles what the spring does.
-    EXPECT_LE(jump, 2.0 * 1000.0 * (kSlew_m + ghost_motion)) << "at " << i << " ms";
+    EXPECT_LE(jump, 2.0 * 1000.0 * (contact::kSlew_m + ghost_motion)) << "at " << i << " ms";
   }
 }
 
 TEST(OfflineRun, TheForceDoesNotDependOnTheRate) {
   const std::vector<HapticState> usual = press_on_plate();
   for (const int microseconds : {200, 2000}) {
-    MultiPartSliding sliding = box_above_the_plate();
+    contact::MultiPartSliding sliding = box_above_the_plate();
     const std::vector<HapticState> samples = press_down(sliding, 0, std::chrono::microseconds(microseconds));
     for (std::size_t ms = 2; ms < usual.size(); ms += 2) {
       const std::size_t i = ms * 1000 / static_cast<std::size_t>(microseconds) - 1;
       EXPECT_NEAR(samples[i].hands[0].force_W.z(), usual[ms - 1].hands[0].force_W.z(), 0.1) << ms << " ms";
     }
   }
-  MultiPartSliding sliding = box_above_the_plate();
+  contact::MultiPartSliding sliding = box_above_the_plate();
   EXPECT_THROW(press_down(sliding, 0, std::chrono::microseconds(100)), std::invalid_argument);
 }
 

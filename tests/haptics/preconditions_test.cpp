@@ -1,70 +1,26 @@
-// What callers must not do: set-up code throws a sentence, everything else ends the program where assertions are on.
+// What callers must not do.
 
-#include <memory>
-#include <string>
+#include <vector>
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/contact_body.h>
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
-#include <glissade/haptics/sliding.h>
 
-#include "assertions.h"
+#include "held_part.h"
+#include "poses.h"
 
 namespace glissade::haptics {
 namespace {
 
 using Eigen::Isometry3d;
-using ::testing::HasSubstr;
-using ::testing::ThrowsMessage;
 
-std::shared_ptr<const geometry::TriangleMesh> box_mesh() {
-  return std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12));
-}
-
-Isometry3d above() {
-  return Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.2));
-}
-
-class HapticsPreconditions : public ::testing::Test {
- protected:
-  const Obstacle block_{.body = std::make_shared<ContactBody>(box_mesh()), .name = "the block"};
-  const std::shared_ptr<const SlidingPart> part_ = std::make_shared<SlidingPart>(box_mesh());
-};
-
-TEST_F(HapticsPreconditions, ABodyNeedsAMesh) {
-  EXPECT_THAT([] { ContactBody(nullptr); }, ThrowsMessage<std::invalid_argument>(HasSubstr("needs a mesh")));
-  EXPECT_THROW(SlidingPart(nullptr), std::invalid_argument);
-}
-
-TEST_F(HapticsPreconditions, EitherMethodNeedsAPartAndBodies) {
-  for (const SlidingMethod method : {SlidingMethod::kProjection, SlidingMethod::kPaper}) {
-    EXPECT_THAT([&] { make_sliding(method, {block_}, nullptr, above()); },
-                ThrowsMessage<std::invalid_argument>(HasSubstr("the part needs a body")));
-    EXPECT_THAT([&] { make_sliding(method, {{.body = nullptr, .name = "the wall"}}, part_, above()); },
-                ThrowsMessage<std::invalid_argument>(HasSubstr("the wall needs a body")));
-  }
-}
-
-TEST_F(HapticsPreconditions, AScriptedPartNeedsABody) {
-  const geometry::PoseTrajectory script({{std::chrono::nanoseconds(0), above()}});
-  EXPECT_THAT(
-      [&] { Sliding({block_}, part_, above(), {}, {{.part_B = nullptr, .script_X_WB = script, .name = "the lift"}}); },
-      ThrowsMessage<std::invalid_argument>(HasSubstr("the lift needs a body")));
-}
-
-TEST_F(HapticsPreconditions, ACallNeedsACycle) {
-  EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.max_cycles = 0}}), std::invalid_argument);
-  EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.contacts_ahead_ms = -1.0}}), std::invalid_argument);
-  EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.affordable_pairs = 0}}), std::invalid_argument);
-}
-
-TEST_F(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) {
+TEST(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) {
+  const auto part = test_support::cube(0.1);
+  const auto above = [] { return test_support::pose({0.0, 0.0, 0.2}); };
   devices::SimulatedGlove glove(geometry::PoseTrajectory({{std::chrono::nanoseconds(0), above()}}));
-  const PartScript script{geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})};
-  MultiPartSliding sliding({}, {{.part_V = part_, .X_WV_start = above()}, {.part_V = part_, .script = script}});
+  const contact::PartScript script{geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})};
+  contact::MultiPartSliding sliding({}, {{.part_V = part, .X_WV_start = above()}, {.part_V = part, .script = script}});
   const auto ignore = [](const devices::HapticState&) {};
   EXPECT_THROW(run_offline({{&glove}}, sliding, 1, {}), std::invalid_argument);
   EXPECT_THROW(run_offline({{nullptr}}, sliding, 1, ignore), std::invalid_argument);
@@ -72,16 +28,6 @@ TEST_F(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts
   EXPECT_THROW(run_offline(std::vector<HandOffline>(5, {&glove}), sliding, 1, ignore), std::invalid_argument);
   EXPECT_THROW(run_offline({{&glove, 1}}, sliding, 1, ignore), std::invalid_argument) << "a script moves it";
   EXPECT_THROW(run_offline({{&glove, 2}}, sliding, 1, ignore), std::invalid_argument) << "there is none";
-}
-
-TEST_F(HapticsPreconditions, ThereIsAPoseForEachPart) {
-  if (!test_support::kHasAssertions) GTEST_SKIP() << "built without GLISSADE_ASSERTIONS";
-  GTEST_FLAG_SET(death_test_style, "threadsafe");
-  MultiPartSliding sliding({block_}, {{.part_V = part_, .X_WV_start = above()}});
-  const std::vector<Isometry3d> none;
-  EXPECT_DEATH(sliding.advance(none), "precondition");
-  EXPECT_DEATH(sliding.release(1), "precondition");
-  EXPECT_DEATH(sliding.advance(std::vector{above()}, -1.0), "precondition");
 }
 
 }  // namespace

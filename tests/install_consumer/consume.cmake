@@ -15,7 +15,7 @@ function(configure project)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${work}/prefix)
-foreach(project collision_only everything)
+foreach(project contact_only everything)
   configure(${project})
   run(${CMAKE_COMMAND} --build ${work}/${project})
   execute_process(COMMAND ${work}/${project}/consumer WORKING_DIRECTORY ${work}/${project} COMMAND_ERROR_IS_FATAL ANY)

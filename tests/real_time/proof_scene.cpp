@@ -3,6 +3,8 @@
 #include <numbers>
 #include <vector>
 
+#include <glissade/contact/spring.h>
+
 #include "held_part.h"
 #include "poses.h"
 
@@ -33,17 +35,17 @@ devices::SimulatedGlove proof_hand(std::size_t part, std::chrono::seconds durati
                                      : to_and_fro({0.03, 0.0, 0.0}, {0.04, -0.02, 0.0}, milliseconds(500), duration));
 }
 
-haptics::MultiPartSliding proof_parts() {
+contact::MultiPartSliding proof_parts() {
   using std::chrono::milliseconds;
   constexpr std::chrono::seconds kForLong(600);
-  const haptics::CouplingStiffness stiffness{1000.0, 1.0};
+  const contact::CouplingStiffness stiffness{1000.0, 1.0};
   const auto held = [&](double x) {
-    return haptics::HeldPart{.part_V = cube(kEdge_m), .X_WV_start = at(x, 0.0, 0.0), .stiffness = stiffness};
+    return contact::HeldPart{.part_V = cube(kEdge_m), .X_WV_start = at(x, 0.0, 0.0), .stiffness = stiffness};
   };
   const geometry::PoseTrajectory lift = to_and_fro({0.0, 0.0, -0.08}, {0.0, 0.0, 0.04}, milliseconds(1000), kForLong);
   return {{wall(0.07)},
-          {held(-0.03), held(0.03), haptics::held_by_script({cube(kEdge_m), lift})},
-          haptics::real_time_rules()};
+          {held(-0.03), held(0.03), contact::held_by_script({cube(kEdge_m), lift})},
+          contact::real_time_rules()};
 }
 
 }  // namespace glissade::test_support

@@ -149,7 +149,7 @@ haptics::HapticServerStatistics run_server(Witness& witness, const std::shared_p
                                            std::int64_t ticks) {
   constexpr std::chrono::seconds kLonger(600);
   realtime::SteadyClock clock;
-  haptics::MultiPartSliding parts = proof_parts();
+  contact::MultiPartSliding parts = proof_parts();
   devices::SimulatedGloveService remote(bus, proof_hand(0, kLonger), clock);
   devices::LcmGlove link(bus, devices::simulated_glove_descriptor());
   ProofGlove device(proof_hand(1, kLonger), kPeriod, [&witness] { witness.note_command(); });

@@ -6,22 +6,22 @@
 
 namespace glissade::test_support {
 
-using haptics::PairToCertify;
-using haptics::TrianglesOfBodies;
+using contact::PairToCertify;
+using contact::TrianglesOfBodies;
 
-std::vector<TrianglesOfBodies> pairs_within(const haptics::CandidatePairs& candidates, double reach) {
+std::vector<TrianglesOfBodies> pairs_within(const contact::CandidatePairs& candidates, double reach) {
   std::vector<TrianglesOfBodies> pairs(3);  // they are replaced
   candidates.pairs().within(reach, pairs);
   return pairs;
 }
 
-std::vector<PairToCertify> pairs_to_certify_within(const haptics::CandidatePairs& candidates, double reach) {
+std::vector<PairToCertify> pairs_to_certify_within(const contact::CandidatePairs& candidates, double reach) {
   std::vector<PairToCertify> to_certify(3);
   candidates.pairs().within(reach, to_certify);
   return to_certify;
 }
 
-std::string what_is_missing(const haptics::CandidatePairs& candidates, const haptics::ContactScene& scene,
+std::string what_is_missing(const contact::CandidatePairs& candidates, const contact::ContactScene& scene,
                             double reach) {
   std::set<TrianglesOfBodies> for_contacts;
   for (const TrianglesOfBodies& c : pairs_within(candidates, reach))

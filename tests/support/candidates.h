@@ -9,11 +9,11 @@
 
 namespace glissade::test_support {
 
-std::vector<haptics::TrianglesOfBodies> pairs_within(const haptics::CandidatePairs& candidates, double reach);
-std::vector<haptics::PairToCertify> pairs_to_certify_within(const haptics::CandidatePairs& candidates, double reach);
+std::vector<contact::TrianglesOfBodies> pairs_within(const contact::CandidatePairs& candidates, double reach);
+std::vector<contact::PairToCertify> pairs_to_certify_within(const contact::CandidatePairs& candidates, double reach);
 
 /// A pair of triangles within `reach` (metres) that is missing, for proofs or for contacts; empty if none is.
-std::string what_is_missing(const haptics::CandidatePairs& candidates, const haptics::ContactScene& scene,
+std::string what_is_missing(const contact::CandidatePairs& candidates, const contact::ContactScene& scene,
                             double reach);
 
 }  // namespace glissade::test_support

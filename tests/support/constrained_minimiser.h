@@ -15,9 +15,9 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/projection.h>
+#include <glissade/contact/spring.h>
 #include <glissade/geometry/triangle_mesh.h>
-
-#include "solver/projection.h"
 
 namespace glissade::test_support {
 
@@ -28,7 +28,7 @@ struct RestProblem {
   std::vector<ConvexPiece> part_V;
   std::vector<ConvexPiece> obstacles_W;
   Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< where the spring acts
-  haptics::CouplingStiffness stiffness{};
+  contact::CouplingStiffness stiffness{};
   double margin = 0.0;  ///< metres
 };
 

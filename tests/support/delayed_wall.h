@@ -14,10 +14,10 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/contact_body.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/haptic_kernel.h>
 
 namespace glissade::test_support {
@@ -122,7 +122,7 @@ class DelayedWall {
   const haptics::HapticKernel& kernel() const { return kernel_; }
 
  private:
-  haptics::SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
+  contact::SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
   std::size_t one_way_;
   Mass hand_;
   haptics::HapticKernel kernel_;

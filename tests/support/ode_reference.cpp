@@ -6,6 +6,8 @@
 
 #include <ode/ode.h>
 
+#include <glissade/contact/spring.h>
+
 namespace glissade::test_support {
 namespace {
 
@@ -54,7 +56,7 @@ struct OdeHeldPart::State {
   dBodyID body = nullptr;
   dGeomID part = nullptr;
   std::vector<dGeomID> obstacles;
-  haptics::CouplingStiffness stiffness{};
+  contact::CouplingStiffness stiffness{};
   double inertia = 0.0;
   double friction = 0.0;
   Vector3d slip_W;
@@ -64,7 +66,7 @@ struct OdeHeldPart::State {
   void touch(dGeomID obstacle);
 };
 
-OdeHeldPart::OdeHeldPart(const OdeWorld& world, const OdePart& part, const haptics::CouplingStiffness& stiffness,
+OdeHeldPart::OdeHeldPart(const OdeWorld& world, const OdePart& part, const contact::CouplingStiffness& stiffness,
                          const Isometry3d& X_WV)
     : state_(std::make_unique<State>()) {
   keep_ode_alive();
@@ -162,8 +164,8 @@ Isometry3d OdeHeldPart::X_WV() const {
   return X;
 }
 
-haptics::Wrench OdeHeldPart::contact_wrench() const {
-  haptics::Wrench sum;
+contact::Wrench OdeHeldPart::contact_wrench() const {
+  contact::Wrench sum;
   for (const auto& feedback : state_->feedback) {
     sum.f += vector(feedback->f1);
     sum.t += vector(feedback->t1);

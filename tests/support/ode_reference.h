@@ -15,7 +15,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/haptics/coupling.h>
+#include <glissade/contact/spring.h>
 
 namespace glissade::test_support {
 
@@ -49,7 +49,7 @@ struct OdePart {
 /// critical. Not thread-safe.
 class OdeHeldPart {
  public:
-  OdeHeldPart(const OdeWorld& world, const OdePart& part, const haptics::CouplingStiffness& stiffness,
+  OdeHeldPart(const OdeWorld& world, const OdePart& part, const contact::CouplingStiffness& stiffness,
               const Eigen::Isometry3d& X_WV);
   ~OdeHeldPart();
   OdeHeldPart(const OdeHeldPart&) = delete;
@@ -65,7 +65,7 @@ class OdeHeldPart {
   Eigen::Isometry3d X_WV() const;
 
   /// Wrench of the contacts on the part in the last step, about its centre.
-  haptics::Wrench contact_wrench() const;
+  contact::Wrench contact_wrench() const;
 
   /// Speed of the centre, m/s.
   double speed() const;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <glissade/contact/spring.h>
+
 #include "held_part.h"
 #include "poses.h"
 
@@ -117,8 +119,8 @@ std::vector<OdeScene> scenes_of_spheres() {
   };
 }
 
-std::vector<haptics::Obstacle> obstacles_of(const OdeScene& scene) {
-  std::vector<haptics::Obstacle> obstacles;
+std::vector<contact::Obstacle> obstacles_of(const OdeScene& scene) {
+  std::vector<contact::Obstacle> obstacles;
   for (const OdePlane& plane : scene.planes) {
     const Quaterniond q = turn_from_to(Vector3d::UnitZ(), plane.n);
     obstacles.push_back(obstacle_of(geometry::make_plate({0.5, 0.5}, 2), pose(plane.d * plane.n, q)));
@@ -137,7 +139,7 @@ OdeWorld world_of(const OdeScene& scene, double margin) {
   return world;
 }
 
-double norm_of(const haptics::Wrench& wrench, const haptics::CouplingStiffness& K) {
+double norm_of(const contact::Wrench& wrench, const contact::CouplingStiffness& K) {
   return std::sqrt(wrench.f.squaredNorm() / K.translational + wrench.t.squaredNorm() / K.rotational);
 }
 
@@ -153,8 +155,8 @@ std::vector<OdeScene> ode_scenes() {
 OdeComparison compare_with_ode(const OdeScene& scene) {
   const auto part = part_of(scene.part.radius > 0.0 ? geometry::make_sphere(scene.part.radius, 50'000)
                                                     : geometry::make_box(scene.part.size, 12));
-  haptics::Sliding sliding(obstacles_of(scene), part, scene.X_start,
-                           {.metaphor = haptics::Metaphor::kRubberBandSpring});
+  contact::Sliding sliding(obstacles_of(scene), part, scene.X_start,
+                           {.metaphor = contact::Metaphor::kRubberBandSpring});
   lead(sliding, scene.X_WG, kWay_ms);
   OdeComparison comparison;
   comparison.at_rest = hold_until_rest(sliding) >= 0;
@@ -169,9 +171,9 @@ OdeComparison compare_with_ode(const OdeScene& scene) {
   comparison.difference = geometry::displacement_between(ode.X_WV(), sliding.result().X_WV, Vector3d::Zero());
 
   const geometry::Displacement stretch = geometry::displacement_between(ode.X_WV(), scene.X_WG, Vector3d::Zero());
-  const haptics::Wrench on_hand = haptics::spring_wrench(sliding.stiffness(), stretch);
-  const haptics::Wrench ours = spring_on_part(sliding);
-  const haptics::Wrench contacts = ode.contact_wrench();
+  const contact::Wrench on_hand = contact::spring_wrench(sliding.stiffness(), stretch);
+  const contact::Wrench ours = spring_on_part(sliding);
+  const contact::Wrench contacts = ode.contact_wrench();
   const double whole = norm_of(on_hand, sliding.stiffness());
   comparison.force = on_hand.f.norm();
   comparison.torque = on_hand.t.norm();

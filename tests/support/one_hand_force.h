@@ -7,9 +7,9 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/spring.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/haptics/contact_set.h>
-#include <glissade/haptics/coupling.h>
 
 #include "loop/contact_force.h"
 #include "loop/contact_projection.h"
@@ -18,7 +18,7 @@ namespace glissade::test_support {
 
 class OneHandForce {
  public:
-  OneHandForce(const Eigen::Vector3d& p_Vref, double radius, const haptics::CouplingStiffness& stiffness,
+  OneHandForce(const Eigen::Vector3d& p_Vref, double radius, const contact::CouplingStiffness& stiffness,
                double max_force, const Eigen::Isometry3d& X_WV_start)
       : p_Vref_(p_Vref),
         radius_(radius),
@@ -27,7 +27,7 @@ class OneHandForce {
         force_(radius, stiffness, max_force),
         X_WG_(X_WV_start) {}
 
-  const haptics::Wrench& update(const haptics::ContactSet& set, std::chrono::nanoseconds age,
+  const contact::Wrench& update(const haptics::ContactSet& set, std::chrono::nanoseconds age,
                                 const Eigen::Isometry3d& X_WG, double dt) {
     const double motion = geometry::motion_bound(geometry::displacement_between(X_WG_, X_WG, p_Vref_), radius_);
     X_WG_ = X_WG;
@@ -42,7 +42,7 @@ class OneHandForce {
  private:
   Eigen::Vector3d p_Vref_;
   double radius_;
-  haptics::CouplingStiffness stiffness_;
+  contact::CouplingStiffness stiffness_;
   haptics::ContactProjection projection_;
   haptics::ContactForce force_;
   Eigen::Isometry3d X_WG_;

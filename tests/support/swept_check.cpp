@@ -106,10 +106,10 @@ struct SweptCheck::Motion {
   }
 };
 
-SweptCheck::SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
+SweptCheck::SweptCheck(const std::vector<contact::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
                        const Vector3d& p_Vref)
     : p_Vref_(p_Vref) {
-  for (const haptics::Obstacle& obstacle : obstacles) {
+  for (const contact::Obstacle& obstacle : obstacles) {
     const geometry::TriangleMesh& mesh = obstacle.body->tree.mesh();
     for (std::int32_t i = 0; i < std::ssize(mesh.triangles); ++i) {
       if (!has_area(mesh.corners(i))) continue;

@@ -26,7 +26,7 @@ class SweptCheck {
  public:
   /// Triangles without area are left out, as the queries do. `p_Vref` is the point p of the motion at t = 0, in the
   /// part's frame.
-  SweptCheck(const std::vector<haptics::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
+  SweptCheck(const std::vector<contact::Obstacle>& obstacles, const geometry::TriangleMesh& part_V,
              const Eigen::Vector3d& p_Vref);
 
   /// A description of the triangles not proved apart on the motion that begins at X_WV; nothing if all are.

@@ -16,7 +16,7 @@
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/contact/sliding.h>
 
 #include "random_numbers.h"
 
@@ -38,12 +38,12 @@ HapticScene scene_of(const std::string& objects, const std::vector<std::string>&
 bool is_within(double distance, const HapticScene& scene, const Isometry3d& X_WV,
                std::span<const Isometry3d> moving_X_WB) {
   collision::QueryWorkspace workspace;
-  const auto reaches = [&](const haptics::ContactBody& body, const Isometry3d& X_WB) {
+  const auto reaches = [&](const contact::ContactBody& body, const Isometry3d& X_WB) {
     return collision::intersects(body.tree, scene.parts.front().part_V->tree, X_WB.inverse(Eigen::Isometry) * X_WV,
                                  workspace, distance);
   };
   bool any = false;
-  for (const haptics::Obstacle& obstacle : scene.obstacles)
+  for (const contact::Obstacle& obstacle : scene.obstacles)
     any = any || reaches(*obstacle.body, obstacle.X_WO);
   for (std::size_t i = 0; i < scene.moving.size(); ++i)
     any = any || reaches(*scene.moving[i].part_B, moving_X_WB[i]);
@@ -56,7 +56,7 @@ class Comparison {
   explicit Comparison(const HapticScene& scene) : scene_(scene), clearance_(scene) {}
 
   void note(const Isometry3d& X_WV, const std::vector<Isometry3d>& moving_X_WB = {},
-            std::span<const haptics::Contact> contacts = {}) {
+            std::span<const contact::Contact> contacts = {}) {
     clearance_.note(X_WV, moving_X_WB, contacts);
     poses_.push_back({X_WV, moving_X_WB});
   }
@@ -115,7 +115,7 @@ TEST(LeastClearance, IsThatOfAFullSearchAtEveryPose) {
 
 TEST(LeastClearance, CountsTheMotionOfObjectsThatMoveOnTheirOwn) {
   HapticScene scene = scene_of(kThings);
-  scene.moving.push_back({std::make_shared<const haptics::SlidingPart>(
+  scene.moving.push_back({std::make_shared<const contact::SlidingPart>(
                               std::make_shared<const geometry::TriangleMesh>(scene.parts.front().part_V->tree.mesh())),
                           geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})});
   Comparison comparison(scene);
@@ -215,7 +215,7 @@ TEST(LeastClearance, DoesNothingForAPartThatRests) {
 TEST(LeastClearance, LaterContactsMakeEarlierDistancesNeedless) {
   const HapticScene scene = scene_of(kBoxOnFloor);
   const auto trajectory = [](int tick) { return pose({1e-3 * tick, 0.0, std::max(0.019, 0.3 - 1e-3 * tick)}); };
-  haptics::Sliding sliding(scene.obstacles, scene.parts.front().part_V, trajectory(0), {});
+  contact::Sliding sliding(scene.obstacles, scene.parts.front().part_V, trajectory(0), {});
   Comparison comparison(scene);
   for (int tick = 0; tick < 300; ++tick) {
     sliding.advance(trajectory(tick), tick == 0 ? 0.0 : 1.0);
@@ -285,7 +285,7 @@ TEST(ClearanceCurve, IsSearchedAtMost500Times) {
 
 TEST(ClearanceCurve, IsThatOfAFullSearchAtEveryMoment) {
   HapticScene scene = scene_of(kThings);
-  scene.moving.push_back({std::make_shared<const haptics::SlidingPart>(
+  scene.moving.push_back({std::make_shared<const contact::SlidingPart>(
                               std::make_shared<const geometry::TriangleMesh>(scene.parts.front().part_V->tree.mesh())),
                           geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})});
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -329,8 +329,8 @@ TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
       "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"
       "  - {name: wall, shape: {type: box}, pose: {position_m: [0.060008, 0, 0.06]}}\n");
-  haptics::Contact contact{};
-  contact.kind = haptics::ContactKind::kFaceVertex;
+  contact::Contact contact{};
+  contact.kind = contact::ContactKind::kFaceVertex;
   contact.obstacle = contact.obstacle_triangle = contact.part_triangle = 0;
   contact.n_W = Eigen::Vector3d::UnitZ();
   contact.p_W = Eigen::Vector3d::Zero();

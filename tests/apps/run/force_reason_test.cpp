@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/run/force_reason.h>
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
 
 namespace glissade::apps {
@@ -110,13 +110,13 @@ TEST(ForceReason, AHandWithoutAPartDoesNotLag) {
 }
 
 TEST(ForceReason, NothingIsToldAtTheStartOfARun) {
-  using haptics::SlidingPart;
+  using contact::SlidingPart;
   const auto box = std::make_shared<const SlidingPart>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 12)));
-  const auto plate = std::make_shared<const haptics::ContactBody>(
+  const auto plate = std::make_shared<const contact::ContactBody>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
   const Eigen::Isometry3d X_WV(Eigen::Translation3d(0.0, 0.0, 0.03));
-  haptics::MultiPartSliding sliding({{plate}}, {{.part_V = box, .X_WV_start = X_WV}});
+  contact::MultiPartSliding sliding({{plate}}, {{.part_V = box, .X_WV_start = X_WV}});
   devices::SimulatedGlove holds(geometry::PoseTrajectory({{milliseconds(0), X_WV}}));
   devices::SimulatedGlove is_empty(geometry::PoseTrajectory({{milliseconds(0), X_WV}}));
   haptics::run_offline({{&holds, 0}, {&is_empty, std::nullopt}}, sliding, 100, [](const devices::HapticState& state) {

@@ -7,8 +7,8 @@
 
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/scene/session_start.h>
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/simulated_glove.h>
-#include <glissade/haptics/multi_part_sliding.h>
 
 #include "expect_bad_input.h"
 

@@ -170,7 +170,7 @@ TEST(SessionCheck, ThatEndsEarlyHasLookedAtTicksOfTheWholeRun) {
   const auto box = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.01, 0.01, 0.01}, 12));
   HapticScene scene;
   scene.placed_obstacles = {{box, Eigen::Isometry3d(Eigen::Translation3d(0.09, 0.0, 0.0))}};
-  scene.parts = {{.name = "box", .part_V = std::make_shared<const haptics::SlidingPart>(box)}};
+  scene.parts = {{.name = "box", .part_V = std::make_shared<const contact::SlidingPart>(box)}};
   const Session session = session_of_hand([](int) { return std::pair(devices::HandActivity::kNone, -1); });
   const SessionCheck whole(*session.samples, scene, {nullptr});
   EXPECT_EQ(whole.checked_ticks(), 100);
@@ -186,8 +186,8 @@ TEST(SessionCheck, AnOpenPartMayLieOnABodyButNotCutIt) {
   const Eigen::Isometry3d X_WTable(Eigen::Translation3d(0.0, 0.0, -0.01));
   HapticScene scene;
   scene.placed_obstacles = {{table, X_WTable}};
-  scene.obstacles = {{.body = std::make_shared<const haptics::ContactBody>(table), .X_WO = X_WTable}};
-  scene.parts = {{.name = "sheet", .part_V = std::make_shared<const haptics::SlidingPart>(sheet)}};
+  scene.obstacles = {{.body = std::make_shared<const contact::ContactBody>(table), .X_WO = X_WTable}};
+  scene.parts = {{.name = "sheet", .part_V = std::make_shared<const contact::SlidingPart>(sheet)}};
   SessionRecorder samples(100, 1, 1);
   for (int i = 0; i < 100; ++i) {
     devices::HapticState state;

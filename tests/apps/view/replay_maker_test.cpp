@@ -95,18 +95,18 @@ TEST(ReplayMaker, HasASmallModelOfALargeSceneBesideTheWhole) {
 }
 
 TEST(ReplayMaker, ShowsThePushingContactsOfAPartInItsFrame) {
-  haptics::SlidingResult result;
+  contact::SlidingResult result;
   result.X_WV = result.X_WV_of_contacts = Eigen::Translation3d(1.0, 2.0, 3.0);
   result.X_WG = Eigen::Translation3d(1.0, 2.0, 2.9);
-  result.state = haptics::SlidingState::kResting;
+  result.state = contact::SlidingState::kResting;
   result.pushing = 1;
-  haptics::Contact contact{};
+  contact::Contact contact{};
   contact.n_W = Eigen::Vector3d::UnitZ();
   contact.p_W = {1.25, 2.0, 3.0};
   result.contacts = {contact, contact};
   result.contacts[1].force = 2.0;
   devices::HapticState state;
-  haptics::ContactPatches patches(0.1);
+  contact::ContactPatches patches(0.1);
   show_part(result, {0.5, 0.0, 0.0}, 1, patches, state);
   EXPECT_EQ(state.parts[1].state, devices::PartState::kResting);
   EXPECT_EQ(state.parts[1].X_WG.translation().z(), 2.9);

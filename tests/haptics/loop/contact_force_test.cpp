@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/spring.h>
+
 #include "one_hand_force.h"
 #include "poses.h"
 
@@ -35,7 +37,7 @@ OneHandForce at_origin() {
 }
 
 /// Lets the force come up to its set.
-Wrench settle(OneHandForce& contacts, const ContactSet& set, const Isometry3d& X_WG) {
+contact::Wrench settle(OneHandForce& contacts, const ContactSet& set, const Isometry3d& X_WG) {
   for (int i = 0; i < 1000; ++i)
     contacts.update(set, nanoseconds(0), X_WG, kTick_s);
   return contacts.update(set, nanoseconds(0), X_WG, kTick_s);
@@ -45,7 +47,7 @@ TEST(ContactForce, IsZeroToTheBitWhereNothingIsInTheWay) {
   OneHandForce contacts = at_origin();
   Isometry3d X_WG = at(1e-4, 0.0, -1e-4);
   X_WG.rotate(Eigen::AngleAxisd(1e-3, Vector3d(1.0, 2.0, 3.0).normalized()));
-  const Wrench& wrench = contacts.update(floor_below(1e-3), nanoseconds(0), X_WG, kTick_s);
+  const contact::Wrench& wrench = contacts.update(floor_below(1e-3), nanoseconds(0), X_WG, kTick_s);
   EXPECT_EQ(wrench.f, Vector3d::Zero());
   EXPECT_EQ(wrench.t, Vector3d::Zero());
 }
@@ -60,7 +62,7 @@ TEST(ContactForce, AnOldSetDoesNotHoldTheHandBackAlongTheFloor) {
   const ContactSet set = floor_below(1e-3);
   settle(contacts, set, at(0.0, 0.0, -3e-3));
   for (int i = 1; i <= 200; ++i) {  // 0.5 m/s
-    const Wrench& wrench = contacts.update(set, milliseconds(i), at(i * 5e-4, 0.0, -3e-3), kTick_s);
+    const contact::Wrench& wrench = contacts.update(set, milliseconds(i), at(i * 5e-4, 0.0, -3e-3), kTick_s);
     EXPECT_LE(wrench.f.head<2>().norm(), 1e-9);
     EXPECT_NEAR(wrench.f.z(), kStiffness * 2e-3 * force_share(milliseconds(i)), 1e-9) << i;
   }
@@ -81,7 +83,7 @@ TEST(ContactForce, FollowsANewContactNoFasterThanTheSlew) {
   double force = 0.0;
   for (int i = 0; i < 20; ++i) {
     const double next = contacts.update(floor_below(1e-3), nanoseconds(0), at(0.0, 0.0, -3e-3), kTick_s).f.z();
-    EXPECT_LE(next - force, kStiffness * kSlew_m * (1.0 + 1e-9));
+    EXPECT_LE(next - force, kStiffness * contact::kSlew_m * (1.0 + 1e-9));
     force = next;
   }
   EXPECT_NEAR(force, 2.0, 1e-9);
@@ -133,10 +135,10 @@ TEST(ContactForce, ATorqueWithoutAForceIsZeroAtThatAgeToo) {
   set.row_array[0] = {{{Vector3d::UnitZ(), Vector3d(0.05, 0.0, 0.0), 0.0}}};
   set.row_array[1] = {{{-Vector3d::UnitZ(), Vector3d(-0.05, 0.0, 0.0), 0.0}}};
   const Isometry3d X_WG(Eigen::AngleAxisd(0.5, Vector3d::UnitY()));
-  const Wrench full = settle(contacts, set, X_WG);
+  const contact::Wrench full = settle(contacts, set, X_WG);
   EXPECT_TRUE(full.f.isZero(1e-9));
   EXPECT_NEAR(full.t.norm(), kMaxForce * kRadius, 1e-9) << "5 Nm are more than the device gives";
-  Wrench last = full;
+  contact::Wrench last = full;
   for (int age = 0; age <= 100; ++age)
     last = contacts.update(set, milliseconds(age), X_WG, kTick_s);
   EXPECT_EQ(last.t, Vector3d::Zero());
@@ -195,9 +197,9 @@ TEST(ContactForce, APartThatLagsBehindOnABallDoesNotHoldTheHandBack) {
 TEST(ContactForce, ATrackerThatJumpsDoesNotMakeTheForceJump) {
   OneHandForce contacts = at_origin();
   const double before = settle(contacts, floor_below(0.0), at(0.0, 0.0, -3e-3)).f.z();
-  const Wrench& wrench = contacts.update(floor_below(0.0), nanoseconds(0), at(0.1, 0.0, -0.1), kTick_s);
+  const contact::Wrench& wrench = contacts.update(floor_below(0.0), nanoseconds(0), at(0.1, 0.0, -0.1), kTick_s);
   EXPECT_EQ(wrench.f.head<2>(), Eigen::Vector2d::Zero()) << "along the floor there is no force";
-  EXPECT_LE(wrench.f.z() - before, kStiffness * (kSlew_m + 2.0 * 2e-3) * (1.0 + 1e-9));
+  EXPECT_LE(wrench.f.z() - before, kStiffness * (contact::kSlew_m + 2.0 * 2e-3) * (1.0 + 1e-9));
 }
 
 TEST(ContactForce, IsASumOfTheNormalsOfBothSetsWhileOneGivesWayToTheOther) {
@@ -206,7 +208,7 @@ TEST(ContactForce, IsASumOfTheNormalsOfBothSetsWhileOneGivesWayToTheOther) {
   ContactSet wall = floor_below(0.0);
   wall.row_array[0].n = -Vector3d::UnitX();
   for (int i = 0; i < 100; ++i) {
-    const Wrench& wrench = contacts.update(wall, nanoseconds(0), at(2e-3, 0.0, -3e-3), kTick_s);
+    const contact::Wrench& wrench = contacts.update(wall, nanoseconds(0), at(2e-3, 0.0, -3e-3), kTick_s);
     EXPECT_GE(wrench.f.z(), 0.0);
     EXPECT_LE(wrench.f.x(), 0.0);
     EXPECT_EQ(wrench.f.y(), 0.0);
@@ -225,7 +227,7 @@ TEST(ContactForce, FrictionBelongsToItsNormalForce) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].friction_ratio_W = Vector3d(0.3, 0.0, 0.0);
-  const Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
+  const contact::Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
   EXPECT_TRUE(wrench.f.isApprox(Vector3d(0.6, 0.0, 2.0), 1e-9));
 }
 
@@ -272,7 +274,7 @@ TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].r = Vector3d(0.01, 0.0, 0.0);
-  const Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
+  const contact::Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
   EXPECT_GT(wrench.f.z(), 0.0);
   EXPECT_TRUE(wrench.t.isApprox(set.row_array[0].r.cross(wrench.f), 1e-12));
 }

@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/spring.h>
 #include <glissade/devices/simulated_glove.h>
 
 #include "random_numbers.h"
@@ -81,7 +82,7 @@ TEST_F(LoadOnFingers, OfACoupleIsSharedByBothFingers) {
   HandAnswer hand = pinch();
   hand.row_array[kThumb].n_W = -Vector3d::UnitY();  // both press along y, 60 mm apart
   hand.row_array[kIndex].n_W = Vector3d::UnitY();
-  const Wrench couple{Vector3d::Zero(), 0.12 * Vector3d::UnitZ()};  // 2 N at each
+  const contact::Wrench couple{Vector3d::Zero(), 0.12 * Vector3d::UnitZ()};  // 2 N at each
   JointValues torques{};
   for (int ms = 0; ms < 32; ++ms)
     torques = load_.update(hand, kHeld, couple, Vector3d::Zero(), kPartRadius_m, angles_, kFingerTick_s);

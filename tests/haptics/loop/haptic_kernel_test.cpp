@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/spring.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_kernel.h>
 
@@ -41,7 +42,7 @@ TEST_F(Kernel, TheForceStaysWhereItIsWhenTheReferencePointMoves) {
   ContactSet set = floor_below(0.0);
   set.parts[0].p_Vref = Vector3d(0.05, 0.0, 0.0);
   set.row_array[0].r = Vector3d(-0.05, 0.0, 0.0);  // the same contact
-  const Wrench contacts = tick(hand_at({0.0, 0.0, 0.498}), set).contacts;
+  const contact::Wrench contacts = tick(hand_at({0.0, 0.0, 0.498}), set).contacts;
   EXPECT_NEAR(contacts.f.z(), 2.0, 0.3);
   EXPECT_NEAR(contacts.t.y(), 0.1, 0.02) << "2 N at -0.05 m from the point";
 }

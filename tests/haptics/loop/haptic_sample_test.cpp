@@ -26,8 +26,9 @@ devices::HapticState sample_of(const ContactSet& set) {
 
 TEST(HapticSample, EveryStateOfTheSlidingHasItsName) {
   std::set<PartState> states;
-  for (const SlidingState state : {SlidingState::kReleased, SlidingState::kFree, SlidingState::kSliding,
-                                   SlidingState::kResting, SlidingState::kCatchingUp}) {
+  for (const contact::SlidingState state :
+       {contact::SlidingState::kReleased, contact::SlidingState::kFree, contact::SlidingState::kSliding,
+        contact::SlidingState::kResting, contact::SlidingState::kCatchingUp}) {
     ContactSet set;
     set.sequence = 1;
     set.parts[0].state = state;

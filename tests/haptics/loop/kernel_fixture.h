@@ -8,14 +8,15 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/contact_body.h>
+#include <glissade/contact/spring.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/haptics/contact_body.h>
 #include <glissade/haptics/haptic_kernel.h>
 
 namespace glissade::haptics {
 
-inline const CouplingStiffness kKernelStiffness{1000.0, 2.0};
+inline const contact::CouplingStiffness kKernelStiffness{1000.0, 2.0};
 
 class Kernel : public ::testing::Test {
  protected:
@@ -70,7 +71,7 @@ class Kernel : public ::testing::Test {
   }
 
   static inline const Eigen::Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.5)};
-  SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
+  contact::SlidingPart part_{std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12))};
   devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
   HapticKernel kernel_{{{part_.p_Vref(), part_.radius(), kKernelStiffness}}, {{device_, 0}}};
   std::chrono::nanoseconds now_{0};

@@ -78,7 +78,7 @@ TEST(PassiveStiffness, OfAPartAtADistanceTurnsTheDeviceTooAndIsAsGreatAsItMayBe)
     const double distance = random.uniform(0.0, 0.4);
     const Vector3d lever = distance * random.direction();
     const auto delay = std::chrono::microseconds(static_cast<int>(random.uniform(0.0, 20e3)));
-    CouplingStiffness wanted{};
+    contact::CouplingStiffness wanted{};
     wanted.translational = std::exp(random.uniform(3.0, 8.0));
     wanted.rotational = std::exp(random.uniform(-4.0, 3.0));
     const double lag = 0.5e-3 + std::chrono::duration<double>(delay).count();

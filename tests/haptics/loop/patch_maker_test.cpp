@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/haptics/multi_part_sliding.h>
+#include <glissade/contact/multi_part_sliding.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -24,7 +24,7 @@ using test_support::wall;
 constexpr double kPatchEdge = 0.04;
 
 /// The patches after the ghosts of cubes of 4 cm have stood at these places.
-ContactSet pressed(MultiPartSliding& sliding, const std::vector<Vector3d>& ghosts) {
+ContactSet pressed(contact::MultiPartSliding& sliding, const std::vector<Vector3d>& ghosts) {
   std::vector<Isometry3d> X_WG;
   for (const Vector3d& ghost : ghosts)
     X_WG.push_back(pose(ghost));
@@ -36,7 +36,7 @@ ContactSet pressed(MultiPartSliding& sliding, const std::vector<Vector3d>& ghost
 }
 
 TEST(PatchMaker, AFaceOnAWallIsOnePatch) {
-  MultiPartSliding sliding({wall(0.1)}, {{.part_V = cube(kPatchEdge), .X_WV_start = pose({0.07, 0.0, 0.0})}});
+  contact::MultiPartSliding sliding({wall(0.1)}, {{.part_V = cube(kPatchEdge), .X_WV_start = pose({0.07, 0.0, 0.0})}});
   const ContactSet set = pressed(sliding, {{0.085, 0.0, 0.0}});
   ASSERT_EQ(set.patch_count, 1);
   EXPECT_EQ(set.patches_left_out, 0);
@@ -50,13 +50,13 @@ TEST(PatchMaker, AFaceOnAWallIsOnePatch) {
 }
 
 TEST(PatchMaker, NothingPushesAPartThatIsFree) {
-  MultiPartSliding sliding({wall(0.1)}, {{.part_V = cube(kPatchEdge), .X_WV_start = pose({0.0, 0.0, 0.0})}});
+  contact::MultiPartSliding sliding({wall(0.1)}, {{.part_V = cube(kPatchEdge), .X_WV_start = pose({0.0, 0.0, 0.0})}});
   EXPECT_EQ(pressed(sliding, {{0.01, 0.0, 0.0}}).patch_count, 0);
 }
 
 TEST(PatchMaker, PartsThatPressEachOtherHaveOnePatchBetweenThem) {
-  MultiPartSliding sliding({wall(1.0)}, {{.part_V = cube(kPatchEdge), .X_WV_start = pose({-0.025, 0.0, 0.0})},
-                                         {.part_V = cube(kPatchEdge), .X_WV_start = pose({0.025, 0.0, 0.0})}});
+  contact::MultiPartSliding sliding({wall(1.0)}, {{.part_V = cube(kPatchEdge), .X_WV_start = pose({-0.025, 0.0, 0.0})},
+                                                  {.part_V = cube(kPatchEdge), .X_WV_start = pose({0.025, 0.0, 0.0})}});
   const ContactSet set = pressed(sliding, {{-0.015, 0.0, 0.0}, {0.015, 0.0, 0.0}});
   ASSERT_EQ(set.patch_count, 1);
   EXPECT_EQ(set.patches[0].part, 0);
@@ -69,8 +69,8 @@ TEST(PatchMaker, PartsThatPressEachOtherHaveOnePatchBetweenThem) {
 
 TEST(PatchMaker, PatchesBeyondTheRoomAreCounted) {
   // Four cubes, each in a corner of three blocks.
-  std::vector<Obstacle> niches;
-  std::vector<HeldPart> parts;
+  std::vector<contact::Obstacle> niches;
+  std::vector<contact::HeldPart> parts;
   std::vector<Vector3d> ghosts;
   for (int i = 0; i < 4; ++i) {
     const Vector3d place(0.0, 0.0, 0.3 * i);
@@ -81,7 +81,7 @@ TEST(PatchMaker, PatchesBeyondTheRoomAreCounted) {
     parts.push_back({.part_V = cube(kPatchEdge), .X_WV_start = pose(place)});
     ghosts.push_back(place + Vector3d(3e-3, 3e-3, 3e-3));
   }
-  MultiPartSliding sliding(niches, parts);
+  contact::MultiPartSliding sliding(niches, parts);
   const ContactSet set = pressed(sliding, ghosts);
   EXPECT_EQ(set.patch_count, 8);
   EXPECT_EQ(set.patches_left_out, 4);

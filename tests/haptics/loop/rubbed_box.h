@@ -14,11 +14,11 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/realtime/periodic_loop.h>
 
 #include "held_part.h"
@@ -123,7 +123,7 @@ class RubbedBox {
   devices::SafetyEnvelope envelope_{glove_.descriptor(), 6.0};  // at the glove's end
   devices::GloveCommand command_;                               // the newest that came
   devices::SafeCommand given_;
-  MultiPartSliding sliding_{
+  contact::MultiPartSliding sliding_{
       {test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 2))},
       {{.part_V = test_support::cube(kEdge), .X_WV_start = test_support::at(0.0, 0.0, 0.5 * kEdge + 1e-3)}}};
   Answerer answerer_{sliding_};

@@ -13,9 +13,10 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/reference/brute_force.h>
 
@@ -34,7 +35,7 @@ using test_support::cube;
 using test_support::wall;
 
 constexpr double kEdge = 0.04;
-constexpr CouplingStiffness kEachHand{1000.0, 1.0};
+constexpr contact::CouplingStiffness kEachHand{1000.0, 1.0};
 const double kArm = devices::SimulatedGloveParameters{}.wearer_stiffness;
 
 /// A hand that goes straight from one place to another in half a second, and stays.
@@ -43,7 +44,7 @@ devices::SimulatedGlove hand(const Vector3d& p_from, const Vector3d& p_to) {
                                                            {milliseconds(500), at(p_to.x(), p_to.y(), p_to.z())}}));
 }
 
-HeldPart cube_at(double x) {
+contact::HeldPart cube_at(double x) {
   return {.part_V = cube(kEdge), .X_WV_start = at(x, 0.0, 0.0), .stiffness = kEachHand};
 }
 
@@ -52,8 +53,9 @@ class SeveralHands : public ::testing::Test {
  protected:
   using Events = std::function<void(std::int64_t tick, HoldRequests& hands)>;
 
-  std::vector<HapticState> run(const std::vector<HandOffline>& hands, MultiPartSliding& sliding, std::int64_t ticks,
-                               const Events& events = {}, const std::vector<Obstacle>& obstacles = {}) {
+  std::vector<HapticState> run(const std::vector<HandOffline>& hands, contact::MultiPartSliding& sliding,
+                               std::int64_t ticks, const Events& events = {},
+                               const std::vector<contact::Obstacle>& obstacles = {}) {
     std::vector<HapticState> states;
     run_offline(hands, sliding, ticks,
                 [&](const HapticState& state) {
@@ -66,10 +68,10 @@ class SeveralHands : public ::testing::Test {
   }
 
  private:
-  static void expect_apart(const HapticState& state, const MultiPartSliding& sliding,
-                           const std::vector<Obstacle>& obstacles) {
+  static void expect_apart(const HapticState& state, const contact::MultiPartSliding& sliding,
+                           const std::vector<contact::Obstacle>& obstacles) {
     for (std::size_t a = 0; a < sliding.part_count(); ++a) {
-      for (const Obstacle& obstacle : obstacles) {
+      for (const contact::Obstacle& obstacle : obstacles) {
         ASSERT_FALSE(reference::brute_force_intersects(obstacle.body->tree.mesh(), sliding.part(a).tree.mesh(),
                                                        obstacle.X_WO.inverse() * state.parts[a].X_WV))
             << obstacle.name << ", tick " << state.sequence;
@@ -93,7 +95,7 @@ class SeveralHands : public ::testing::Test {
 
 /// Springs in a row: both arms, and both couplings.
 TEST_F(SeveralHands, TwoPartsPressedTogetherPushBothHandsAlike) {
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.01, 0.0, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.01, 0.0, 0.0});
   const HapticState last = run({{&left, 0}, {&right, 1}}, sliding, 1500).back();
@@ -107,7 +109,7 @@ TEST_F(SeveralHands, TwoPartsPressedTogetherPushBothHandsAlike) {
 }
 
 TEST_F(SeveralHands, HandsThatLeadPartsApartFeelNothing) {
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.05, 0.02, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.05, 0.0, 0.03});
   for (const HapticState& state : run({{&left, 0}, {&right, 1}}, sliding, 600)) {
@@ -117,7 +119,7 @@ TEST_F(SeveralHands, HandsThatLeadPartsApartFeelNothing) {
 }
 
 TEST_F(SeveralHands, APartThatNobodyHoldsIsAnObstacle) {
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {0.0, 0.0, 0.0});
   const HapticState last = run({{&left, 0}}, sliding, 1500).back();
   EXPECT_EQ(last.parts[1].X_WV.translation().x(), 0.03);
@@ -130,7 +132,7 @@ TEST_F(SeveralHands, APartThatNobodyHoldsIsAnObstacle) {
 TEST_F(SeveralHands, APartThatMovesOnItsOwnPushesTheHand) {
   const geometry::PoseTrajectory script(
       {{milliseconds(0), at(0.03, 0.0, 0.0)}, {milliseconds(1000), at(-0.03, 0.0, 0.0)}});
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), held_by_script({cube(kEdge), script})});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), contact::held_by_script({cube(kEdge), script})});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.03, 0.0, 0.0});
   const HapticState last = run({{&left, 0}}, sliding, 2000).back();
   EXPECT_NEAR(last.parts[1].X_WV.translation().x(), -0.03, 50e-6);
@@ -141,7 +143,7 @@ TEST_F(SeveralHands, APartThatMovesOnItsOwnPushesTheHand) {
 
 /// Both hands hold one cube and pull it apart by 20 mm: the springs of arms and couplings are in a row.
 TEST_F(SeveralHands, TwoHandsOnOnePartFeelEachOther) {
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.04, 0.0, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const HapticState last = run({{&left, 0}, {&right, 0}}, sliding, 1500).back();
@@ -152,7 +154,7 @@ TEST_F(SeveralHands, TwoHandsOnOnePartFeelEachOther) {
 }
 
 TEST_F(SeveralHands, TwoHandsThatPressOnePartShareTheForceOfItsContacts) {
-  MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
+  contact::MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove first = hand({-0.03, 0.0, 0.0}, {-0.01, 0.0, 0.0});
   devices::SimulatedGlove second = hand({-0.05, 0.0, 0.0}, {-0.03, 0.0, 0.0});
   const HapticState last = run({{&first, 0}, {&second, 0}}, sliding, 1500).back();
@@ -163,7 +165,7 @@ TEST_F(SeveralHands, TwoHandsThatPressOnePartShareTheForceOfItsContacts) {
 }
 
 TEST_F(SeveralHands, APartPassesFromHandToHand) {
-  MultiPartSliding sliding({wall(0.2)}, {cube_at(0.0)});
+  contact::MultiPartSliding sliding({wall(0.2)}, {cube_at(0.0)});
   devices::SimulatedGlove giver = hand({-0.03, 0.0, 0.0}, {0.07, 0.0, 0.0});
   devices::SimulatedGlove taker = hand({0.13, 0.0, 0.0}, {0.13, 0.0, 0.0});
   const auto states = run({{&giver, 0}, {&taker, std::nullopt}}, sliding, 1500, [](std::int64_t tick, auto& hands) {
@@ -179,7 +181,7 @@ TEST_F(SeveralHands, APartPassesFromHandToHand) {
 }
 
 TEST_F(SeveralHands, APartThatIsLetGoUnderForceStaysWhereItIsAndTheForceGoes) {
-  MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
+  contact::MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove glove = hand({0.0, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const auto states = run({{&glove, 0}}, sliding, 1400, [](std::int64_t tick, auto& hands) {
     if (tick == 1000) hands.release(0);
@@ -194,7 +196,7 @@ TEST_F(SeveralHands, APartThatIsLetGoUnderForceStaysWhereItIsAndTheForceGoes) {
 }
 
 TEST_F(SeveralHands, AReleaseAndAGraspInOneTickAreBothKept) {
-  MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
+  contact::MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove glove = hand({0.0, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const auto states = run({{&glove, 0}}, sliding, 1020, [](std::int64_t tick, auto& hands) {
     if (tick != 1000) return;
@@ -208,7 +210,7 @@ TEST_F(SeveralHands, AReleaseAndAGraspInOneTickAreBothKept) {
 }
 
 TEST_F(SeveralHands, AHandThatClosesTakesTheNearestPartAndOneThatOpensLetsGo) {
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.06), cube_at(0.06)});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.06), cube_at(0.06)});
   devices::SimulatedGloveParameters parameters;
   parameters.starts_closed = false;
   parameters.grip_changes = {milliseconds(100), milliseconds(400), milliseconds(600)};
@@ -226,7 +228,7 @@ TEST_F(SeveralHands, AHandThatClosesTakesTheNearestPartAndOneThatOpensLetsGo) {
 
 /// A hand whose tracker fails no longer moves a part that another hand holds too.
 TEST_F(SeveralHands, AHandThatIsLostLeavesThePartToTheOther) {
-  MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
+  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
   HapticKernel kernel(kernel_parts(sliding),
                       {{devices::simulated_glove_descriptor(), 0}, {devices::simulated_glove_descriptor(), 0}});
   ContactSet set;
@@ -283,7 +285,7 @@ class TwoHandsOnOnePart : public ::testing::Test {
     return kernel_.tick(states, set_, milliseconds(ms_));
   }
 
-  MultiPartSliding sliding_{{wall(1.0)}, {cube_at(0.0), cube_at(0.5)}};
+  contact::MultiPartSliding sliding_{{wall(1.0)}, {cube_at(0.0), cube_at(0.5)}};
   HapticKernel kernel_{kernel_parts(sliding_),
                        {{devices::simulated_glove_descriptor(), 0}, {devices::simulated_glove_descriptor(), 0}}};
   ContactSet set_;
@@ -377,14 +379,14 @@ TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
   const geometry::PoseTrajectory lift({{milliseconds(0), at(0.0, 0.0, -0.12)},
                                        {milliseconds(3000), at(0.0, 0.0, -0.07)},
                                        {milliseconds(6000), at(0.0, 0.0, -0.12)}});
-  const std::vector<Obstacle> obstacles{
+  const std::vector<contact::Obstacle> obstacles{
       wall(0.09), test_support::obstacle_of(geometry::make_box({0.02, 0.3, 0.02}, 12), at(-0.1, 0.0, 0.0))};
-  MultiPartSliding sliding(
+  contact::MultiPartSliding sliding(
       obstacles,
       {cube_at(-0.03),
        cube_at(0.03),
-       {.part_V = cube(kEdge), .X_WV_start = at(0.0, 0.07, 0.0), .metaphor = Metaphor::kIncremental},
-       held_by_script({cube(kEdge), lift})},
+       {.part_V = cube(kEdge), .X_WV_start = at(0.0, 0.07, 0.0), .metaphor = contact::Metaphor::kIncremental},
+       contact::held_by_script({cube(kEdge), lift})},
       {.friction = {.at_rest = 0.2, .sliding = 0.2}});
   devices::SimulatedGlove first = wandering_hand(2 * kSeed, std::chrono::seconds(seconds));
   devices::SimulatedGlove second = wandering_hand(2 * kSeed + 1, std::chrono::seconds(seconds));

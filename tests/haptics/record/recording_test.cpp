@@ -15,10 +15,11 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_server.h>
-#include <glissade/haptics/multi_part_sliding.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/realtime/clock.h>
@@ -41,9 +42,9 @@ devices::SimulatedGlove recorded_hand() {
       geometry::PoseTrajectory({{milliseconds(0), at(0.0, 0.0, 0.0)}, {milliseconds(300), at(0.04, 0.01, 0.0)}}));
 }
 
-MultiPartSliding recorded_parts(const SlidingRules& rules = {}) {
+contact::MultiPartSliding recorded_parts(const contact::SlidingRules& rules = {}) {
   return {{test_support::wall(0.03)},
-          {{.part_V = test_support::cube(0.04), .stiffness = CouplingStiffness{1000.0, 1.0}}},
+          {{.part_V = test_support::cube(0.04), .stiffness = contact::CouplingStiffness{1000.0, 1.0}}},
           rules};
 }
 
@@ -55,7 +56,7 @@ RecordingHead recorded_head() {
 /// A hand presses a cube on a wall, lets go and takes hold again.
 void record(LoopObserver& observer) {
   devices::SimulatedGlove glove = recorded_hand();
-  MultiPartSliding parts = recorded_parts();
+  contact::MultiPartSliding parts = recorded_parts();
   run_offline({{.device = &glove}}, parts, kRecordedTicks, [](const devices::HapticState&) {},
               {.before_tick =
                    [](std::int64_t tick, HoldRequests& hands) {
@@ -89,9 +90,9 @@ class Recording : public testing::Test {
   }
 
   /// What is found, reading and repeating: nothing if all is as it was.
-  std::string fault(const std::string& path, const SlidingRules& rules = {}) {
+  std::string fault(const std::string& path, const contact::SlidingRules& rules = {}) {
     devices::EventLogReader log(path);
-    MultiPartSliding parts = recorded_parts(rules);
+    contact::MultiPartSliding parts = recorded_parts(rules);
     Replay replay(parts, {{.device = recorded_hand().descriptor(), .part = 0}}, kTickPeriod, recorded_head());
     while (const auto event = log.next()) {
       if (!replay.take(*event)) break;
@@ -135,12 +136,12 @@ TEST_F(Recording, IsRepeatedToTheBitWithEveryInstructionSet) {
 
 TEST_F(Recording, OfAServerIsRepeatedToTheBit) {
   const std::string path = folder_.path("server.lcmlog");
-  const SlidingRules rules = real_time_rules();
+  const contact::SlidingRules rules = contact::real_time_rules();
   LogRecorder recorder(path, recorded_head());
   {
     BackgroundObserver observer({&recorder});
     RecordedDevice device;
-    MultiPartSliding parts = recorded_parts(rules);
+    contact::MultiPartSliding parts = recorded_parts(rules);
     realtime::SteadyClock clock;
     HapticServer server({{&device}}, parts, clock, [](const devices::HapticState&) {},
                         {.ticks = kRecordedTicks, .observer = &observer});
@@ -274,17 +275,18 @@ class FailingParts final : public LoopSimulation {
  public:
   explicit FailingParts(int calls) : calls_(calls) {}
 
-  const MultiPartSliding& parts() const override { return parts_; }
-  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override { parts_.grasp(part, X_WG); }
-  void leave_part(std::size_t part) override { parts_.release(part); }
+  const contact::MultiPartSliding& parts() const override { return parts_; }
+  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override { in_loop_.take_part(part, X_WG); }
+  void leave_part(std::size_t part) override { in_loop_.leave_part(part); }
   void advance(const Ghosts& ghosts, double milliseconds) override {
     if (--calls_ < 0) throw std::runtime_error("no more");
-    parts_.advance(ghosts, milliseconds);
+    in_loop_.advance(ghosts, milliseconds);
   }
   void tell_hands(ContactSet&) const override {}
 
  private:
-  MultiPartSliding parts_ = recorded_parts();
+  contact::MultiPartSliding parts_ = recorded_parts();
+  PartsInLoop in_loop_{parts_};
   int calls_;
 };
 

@@ -7,12 +7,12 @@
 #include <memory>
 
 #include <glissade/collision/dop_query.h>
+#include <glissade/contact/sliding.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/grasping/urdf_chain.h>
-#include <glissade/haptics/sliding.h>
 #include <glissade/realtime/triple_buffer.h>
 
 namespace {
@@ -36,16 +36,16 @@ void expect(bool truth, const char* what) {
 }  // namespace
 
 int main() {
-  const auto table_W = std::make_shared<haptics::ContactBody>(box(0.2));
-  const auto cube_V = std::make_shared<haptics::SlidingPart>(box(0.05));
+  const auto table_W = std::make_shared<contact::ContactBody>(box(0.2));
+  const auto cube_V = std::make_shared<contact::SlidingPart>(box(0.05));
   collision::QueryWorkspace workspace;
   expect(collision::intersects(table_W->tree, cube_V->tree, at(0.12), workspace), "overlapping boxes intersect");
   expect(!collision::intersects(table_W->tree, cube_V->tree, at(0.13), workspace), "boxes apart do not intersect");
 
-  haptics::Sliding sliding({{table_W}}, cube_V, at(0.13));
+  contact::Sliding sliding({{table_W}}, cube_V, at(0.13));
   for (int millisecond = 0; millisecond < 100; ++millisecond)
     sliding.advance(at(0.12));
-  expect(sliding.result().state == haptics::SlidingState::kResting, "the cube comes to rest on the table");
+  expect(sliding.result().state == contact::SlidingState::kResting, "the cube comes to rest on the table");
   expect(!collision::intersects(table_W->tree, cube_V->tree, sliding.result().X_WV, workspace), "it rests outside");
 
   devices::GloveCommand command;

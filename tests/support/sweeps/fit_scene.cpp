@@ -160,8 +160,8 @@ TortureScene random_fit_scene(RandomNumbers& random) {
     scene.room = 1.5 * scene.size;
     for (const reference::PlacedMesh& other : fit.others)
       scene.obstacles.push_back(
-          {std::make_shared<haptics::ContactBody>(std::make_shared<TriangleMesh>(*other.mesh)), other.X_WB});
-    scene.part_V = std::make_shared<haptics::SlidingPart>(std::make_shared<TriangleMesh>(std::move(fit.part)));
+          {std::make_shared<contact::ContactBody>(std::make_shared<TriangleMesh>(*other.mesh)), other.X_WB});
+    scene.part_V = std::make_shared<contact::SlidingPart>(std::make_shared<TriangleMesh>(std::move(fit.part)));
     char text[60];
     std::snprintf(text, sizeof text, "%s, %.3g mm", fit.name, 1e3 * scene.size);
     scene.description = text;

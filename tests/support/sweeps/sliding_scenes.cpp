@@ -21,11 +21,11 @@
 namespace glissade::test_support {
 namespace {
 
+using contact::ContactBody;
 using Eigen::Isometry3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
-using haptics::ContactBody;
 using std::numbers::pi;
 
 const shapes::ThreadShape kBolt{.turns = 16};

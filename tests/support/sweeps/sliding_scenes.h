@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/haptics/contact_body.h>
+#include <glissade/contact/contact_body.h>
 
 #include "scene/contact_scene.h"
 
@@ -19,8 +19,8 @@ namespace glissade::test_support {
 /// A part among obstacles and the motion of its ghost.
 struct SlidingScene {
   std::string name;
-  std::vector<haptics::Obstacle> obstacles;
-  std::shared_ptr<const haptics::SlidingPart> part_V;
+  std::vector<contact::Obstacle> obstacles;
+  std::shared_ptr<const contact::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();  ///< free of collision
   /// X_WG after `tick` milliseconds; tick 0 is the start. Defined for every tick; after the last one the ghost stands
   /// still.

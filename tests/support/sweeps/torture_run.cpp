@@ -9,12 +9,12 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/haptics/coupling.h>
-#include <glissade/haptics/sliding.h>
+#include <glissade/contact/projection.h>
+#include <glissade/contact/sliding.h>
+#include <glissade/contact/spring.h>
 #include <glissade/reference/grid_check.h>
 
 #include "random_numbers.h"
-#include "solver/projection.h"
 #include "sweeps/fit_scene.h"
 #include "sweeps/torture_scene.h"
 #include "swept_check.h"
@@ -22,7 +22,7 @@
 namespace glissade::test_support {
 namespace {
 
-using namespace haptics;
+using namespace contact;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 

@@ -14,12 +14,12 @@
 
 namespace glissade::test_support {
 
+using contact::ContactBody;
+using contact::Obstacle;
+using contact::SlidingPart;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
-using haptics::ContactBody;
-using haptics::Obstacle;
-using haptics::SlidingPart;
 using reference::GridCheck;
 
 namespace {

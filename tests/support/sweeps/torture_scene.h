@@ -12,7 +12,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/haptics/contact_body.h>
+#include <glissade/contact/contact_body.h>
 
 #include "random_numbers.h"
 #include "scene/contact_scene.h"
@@ -25,8 +25,8 @@ struct TortureScene {
   double size = 1.0;  ///< about the part's radius, metres
   double room = 1.0;  ///< half the edge of the cube about `origin` that holds all bodies, metres
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
-  std::vector<haptics::Obstacle> obstacles;
-  std::shared_ptr<const haptics::SlidingPart> part_V;
+  std::vector<contact::Obstacle> obstacles;
+  std::shared_ptr<const contact::SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
 };
 

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Geometry>
+
+namespace glissade::contact {
+
+/// A motion of all movers, over t from 0 to 1.
+class BodiesMotion {
+ public:
+  virtual ~BodiesMotion() = default;
+
+  /// The poses X_WM at t. One entry for each mover.
+  virtual void poses(double t, std::span<Eigen::Isometry3d> X_WM) const = 0;
+  /// Bound (metres) of |x(t) − x(0)| for every point x of a mover and every t.
+  virtual double length(std::size_t mover) const = 0;
+  /// Bound (metres) of |d²x/dt²| for every point x of a mover and every t.
+  virtual double acceleration(std::size_t mover) const = 0;
+};
+
+}  // namespace glissade::contact

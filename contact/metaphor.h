@@ -1,0 +1,63 @@
+#pragma once
+
+/// Metaphors: how the hand is tied to the part (paper §3).
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include <Eigen/Geometry>
+
+namespace glissade::contact {
+
+/// The connection between hand and part, as in §3 of the paper (docs/notation.md). The ghost is the pose of the part as
+/// the hand commands it, without contacts.
+enum class Metaphor : std::uint8_t {
+  kForceFeedback,     ///< rigid grasp: the device pushes the hand back, and the part follows at a limited speed
+  kRubberBand,        ///< a rubber band ties the part's reference point to the ghost; only contacts turn the part
+  kRubberBandSpring,  ///< a rubber band and a spiral spring tie the part to the ghost; the part has no speed limit
+  kIncremental,       ///< the part repeats each motion of the ghost; motion that contacts prevent is lost
+};
+
+/// What a metaphor means for the part.
+struct MetaphorTraits {
+  std::string_view name;      ///< as on the command line
+  bool limits_speed = false;  ///< the lag changes no faster than kSlew_m (`spring.h`) a millisecond and the ghost do
+  bool turns_part = true;     ///< the ghost turns the part; otherwise only contacts do
+  bool makes_up = true;       ///< the part makes up for motion that contacts have prevented, once it can
+};
+
+/// In the order of the values of `Metaphor`.
+inline constexpr std::array<MetaphorTraits, 4> kMetaphors{{{.name = "force-feedback", .limits_speed = true},
+                                                           {.name = "rubber-band", .turns_part = false},
+                                                           {.name = "rubber-band-spring"},
+                                                           {.name = "incremental", .makes_up = false}}};
+
+constexpr const MetaphorTraits& traits_of(Metaphor metaphor) {
+  return kMetaphors[static_cast<std::size_t>(metaphor)];
+}
+
+inline constexpr std::array<std::string_view, kMetaphors.size()> kMetaphorNames = [] {
+  std::array<std::string_view, kMetaphors.size()> names;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    names[i] = kMetaphors[i].name;
+  return names;
+}();
+
+inline std::string_view name_of(Metaphor metaphor) {
+  return traits_of(metaphor).name;
+}
+
+/// The metaphor with this name; nothing for an unknown name.
+std::optional<Metaphor> metaphor_from_name(std::string_view name);
+
+/// The target X_WT of a part at X_WV after the ghost has gone from X_WG_previous to X_WG; `p_Vref` is the reference
+/// point in the part's frame. Most metaphors want the ghost's pose, bit for bit. One that does not turn the part
+/// wants the ghost's reference point and the rotation of X_WV. One that does not make up for lost motion wants X_WV
+/// displaced as the ghost was: the same translation of the reference point, the same rotation.
+Eigen::Isometry3d wanted_pose(Metaphor metaphor, const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG_previous,
+                              const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
+
+}  // namespace glissade::contact

@@ -1,0 +1,94 @@
+#pragma once
+
+/// The constraints of contacts on the displacements of parts, and the quadratic programme at the heart of sliding:
+/// among the displacements that half-space constraints allow, the one nearest to a wanted displacement, in the metric
+/// of the coupling.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <glissade/contact/sliding_rules.h>
+#include <glissade/contact/spring.h>
+#include <glissade/geometry/displacement.h>
+
+namespace glissade::contact {
+
+/// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part: v is the translation of
+/// the part's reference point in metres, w the rotation vector about that point in radians.
+struct ConstraintRow {
+  Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
+  Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
+  double bound;       ///< metres; at most 0 if the constraint allows standing still
+
+  /// The left side of the constraint: the motion of the contact point along n, in metres.
+  double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
+};
+
+/// A constraint on the displacements of several parts: on the displacement of `part`, or for a contact of two parts, on
+/// that of `part` relative to `other`.
+struct CoupledRow : ConstraintRow {
+  std::int32_t part = 0;
+  std::int32_t other = -1;                            ///< −1 for an obstacle
+  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
+
+  double velocity(std::span<const geometry::Displacement> d) const {
+    const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
+    return other < 0 ? own : own - ConstraintRow{n, r_other, 0.0}.velocity(d[static_cast<std::size_t>(other)]);
+  }
+};
+
+/// The outcome of a projection on half-spaces.
+enum class ProjectionStatus : std::uint8_t { kSolved, kInfeasible, kIterationLimit };
+
+inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
+
+/// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each, along its
+/// normal: its share of K (ξ − ξ*). Displacements are valid only when solved.
+template <std::size_t kParts>
+struct ProjectionOf {
+  ProjectionStatus status = ProjectionStatus::kSolved;
+  std::array<geometry::Displacement, kParts> displacements{};
+  int active_count = 0;
+  std::array<std::int32_t, kMaxActive * kParts> active{};
+  std::array<double, kMaxActive * kParts> force{};
+
+  const geometry::Displacement& displacement() const { return displacements[0]; }
+};
+
+using Projection = ProjectionOf<1>;
+using CoupledProjection = ProjectionOf<kMaxParts>;
+
+/// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
+/// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are kept as an
+/// orthonormal basis and a triangular factor, so that a change of the active set costs some hundred operations.
+///
+/// Bounded work: at most 32 + 4 · rows changes of the active set, O(rows) each. Deterministic. Not thread-safe.
+class ProjectionSolver {
+ public:
+  /// Allocates memory for `rows` rows of one part. A call allocates only for more rows than any call before.
+  explicit ProjectionSolver(std::size_t rows = 0);
+
+  Projection project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
+                     std::span<const ConstraintRow> rows);
+
+  /// The same for up to kMaxParts parts; `wanted` and `stiffness` have one entry for each part. A part of infinite
+  /// stiffness stands still, whatever its wanted displacement.
+  CoupledProjection project(std::span<const geometry::Displacement> wanted,
+                            std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows);
+
+ private:
+  template <std::size_t kParts, typename Row>
+  ProjectionOf<kParts> solve(std::span<const geometry::Displacement> wanted,
+                             std::span<const CouplingStiffness> stiffness, std::span<const Row> rows);
+
+  std::vector<double> normals_;  // column-major, one row for each normal
+  std::vector<double> bounds_;
+  std::vector<double> slacks_;
+};
+
+}  // namespace glissade::contact

@@ -1,0 +1,99 @@
+#pragma once
+
+/// Sliding contact of one part: the visible part follows the ghost as closely as the obstacles allow. The ghost is the
+/// pose that the part would have if nothing were in the way. A part that starts apart from all other bodies never gets
+/// inside one, neither at rest nor on its way.
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/geometry/pose_trajectory.h>
+
+namespace glissade::contact {
+
+struct SlidingOptions {
+  Metaphor metaphor = Metaphor::kForceFeedback;
+  std::optional<CouplingStiffness> stiffness{};  ///< default: `default_stiffness` of the part's radius
+  SlidingRules rules{};
+};
+
+/// A part that moves on its own or in the other hand. Its script gives the poses of its ghost over time: the part
+/// follows the script as far as contacts allow.
+struct ScriptedPart {
+  std::shared_ptr<const SlidingPart> part_B;
+  geometry::PoseTrajectory script_X_WB;
+  std::chrono::nanoseconds start{0};  ///< time of the script when the simulation begins
+  /// Stiffness against translation, k_t; the stiffness against rotation is k_t ρ², with ρ the radius of the part. The
+  /// default is a thousand times the default stiffness of a hand, so that the scripted part pushes other parts and is
+  /// hardly pushed by them. With the stiffness of a hand, the script acts as another hand.
+  double grip_N_per_m = 1e6;
+  std::string name = "a moving part";  ///< for messages
+};
+
+/// The same for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
+HeldPart held_by_script(const ScriptedPart& part);
+
+/// The simulation of one part among fixed obstacles and scripted parts: `MultiPartSliding` with the part first and the
+/// scripted parts after it. Deterministic: the same calls give the same bits. Not thread-safe; several simulations may
+/// share bodies.
+class Sliding {
+ public:
+  /// Throws std::invalid_argument as `MultiPartSliding` does.
+  Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
+          const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
+          const std::vector<ScriptedPart>& scripted = {});
+
+  /// The hand grasps the part, or grasps it anew: from now on the ghost is at X_WG, wherever the part is. Nothing moves
+  /// in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost and part:
+  /// - With `force-feedback` the part closes the offset at a limited speed. Meanwhile the hand feels no force from it.
+  /// - With the rubber bands the part closes the offset without a limit of speed.
+  /// - With `incremental` the part keeps the offset, so that `release` and `grasp` act as a clutch.
+  ///
+  /// The hand holds the part from the start; `grasp` is required only after `release`. Ignores poses that
+  /// `geometry::rigid_pose` rejects.
+  void grasp(const Eigen::Isometry3d& X_WG) { sliding_.grasp(0, X_WG); }
+
+  /// The hand lets go: the part stays where it is, the ghost is at the pose of the part, and no contact pushes.
+  void release() { sliding_.release(0); }
+
+  /// Moves the visible part towards its target (`SlidingResult::X_WT`) for the ghost at X_WG. Call this once per
+  /// millisecond of motion. X_WG is corrected to a rotation and translation by `geometry::rigid_pose`. The part stays
+  /// where it is if `rigid_pose` rejects X_WG or if the part is released. `milliseconds`, finite and not negative, is
+  /// the time between the ghost poses of the last call and of this call. A caller that is late passes the whole time,
+  /// so that the part catches up. Scripts advance by `milliseconds` in any case.
+  const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
+
+  const SlidingResult& result() const { return sliding_.result(0); }
+  const SlidingPart& part() const { return sliding_.part(0); }
+  const CouplingStiffness& stiffness() const { return sliding_.stiffness(0); }
+  /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
+  double margin() const { return sliding_.margin(0); }
+  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the
+  /// part is at its target and while the part is released.
+  geometry::Displacement error() const { return sliding_.error(0); }
+  /// Visible poses of the scripted parts, i.e. of the parts that a script moves instead of the hand, in the order given
+  /// to the constructor.
+  std::span<const Eigen::Isometry3d> scripted_X_WB() const { return scripted_X_WB_; }
+  const SearchStatistics& search_statistics() const { return sliding_.search_statistics(); }
+  const CallStatistics& call_statistics() const { return sliding_.call_statistics(); }
+
+  /// Minimum clearance (metres): the distance that the part keeps on every step from obstacles that have no margin of
+  /// their own, as proved before the step. A step that starts nearer to an obstacle keeps 95 % of the distance at its
+  /// start.
+  double min_clearance() const { return kMinClearanceOfMargin * margin(); }
+
+ private:
+  friend struct SceneAccess;
+  MultiPartSliding sliding_;
+  std::vector<Eigen::Isometry3d> scripted_X_WB_;
+  std::vector<Eigen::Isometry3d> ghosts_X_WG_;  // one for each part; only the first counts
+};
+
+}  // namespace glissade::contact

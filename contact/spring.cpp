@@ -1,0 +1,27 @@
+#include <cmath>
+#include <stdexcept>
+
+#include <glissade/contact/spring.h>
+
+namespace glissade::contact {
+
+CouplingStiffness default_stiffness(double radius) {
+  constexpr double kTranslational_N_per_m = 1000.0;
+  return {kTranslational_N_per_m, kTranslational_N_per_m * radius * radius};
+}
+
+void validate(const CouplingStiffness& stiffness, const std::string& part_name) {
+  const auto is_stiffness = [](double k) { return k > 0.0 && std::isfinite(k); };
+  if (is_stiffness(stiffness.translational) && is_stiffness(stiffness.rotational)) return;
+  throw std::invalid_argument("the stiffness with which " + part_name + " is held is not a positive number");
+}
+
+Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return {wrench.f, wrench.t + (from - to).cross(wrench.f)};
+}
+
+Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error) {
+  return {-stiffness.translational * error.v, -stiffness.rotational * error.w};
+}
+
+}  // namespace glissade::contact

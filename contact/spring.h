@@ -1,0 +1,56 @@
+#pragma once
+
+/// The spring of the virtual coupling, between the visible part and its target, and the wrench that the hand feels from
+/// it.
+
+#include <string>
+
+#include <Eigen/Core>
+
+#include <glissade/geometry/displacement.h>
+
+namespace glissade::contact {
+
+/// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
+/// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost, or of all ghosts if there
+/// are several parts. This limit bounds the change of the force when the part snaps into a
+/// gap.
+inline constexpr double kSlew_m = 0.2e-3;
+
+/// Stiffness of the spring against translation (N/m) of the part's reference point and rotation (Nm/rad) about it. The
+/// simulation projects the wanted displacement of the part on the displacements that the contacts allow. The stiffness
+/// is also the metric of this projection, so that the wrench of the spring on a part at rest is a sum of forces along
+/// contact normals.
+struct CouplingStiffness {
+  double translational;
+  double rotational;
+};
+
+/// Throws std::invalid_argument, naming the part by `part_name`, unless both numbers are positive and finite.
+void validate(const CouplingStiffness& stiffness, const std::string& part_name);
+
+/// The default stiffness for a part of radius ρ (metres): 1000 N/m against translation and ρ² times that against
+/// rotation.
+CouplingStiffness default_stiffness(double radius);
+
+/// Force (N) and torque (Nm) on a body about some point, in world axes.
+struct Wrench {
+  Eigen::Vector3d f = Eigen::Vector3d::Zero();
+  Eigen::Vector3d t = Eigen::Vector3d::Zero();
+};
+
+/// The wrench times a factor.
+inline Wrench scaled(const Wrench& wrench, double factor) {
+  return {factor * wrench.f, factor * wrench.t};
+}
+
+/// The same wrench about the point `to` instead of the point `from`, both in world coordinates (metres).
+Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+
+/// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where K is `stiffness` and ξ* is `error`,
+/// the displacement from the visible part to its target (which is the ghost, unless the part was grasped at an offset).
+/// Exactly zero when `error` is zero. Because the part was projected on the contacts in the metric K, the
+/// wrench is a sum of forces along contact normals: without `SlidingRules::friction`, the hand feels no friction.
+Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
+
+}  // namespace glissade::contact
