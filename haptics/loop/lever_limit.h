@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include <glissade/contact/spring.h>
-#include <glissade/contact/spring.h>
 
 namespace glissade::haptics {
 

@@ -58,12 +58,12 @@ std::string recorded(std::int64_t ticks) {
   devices::SimulatedGlove glove = hand();
   contact::MultiPartSliding sliding = parts();
   haptics::run_offline({{.device = &glove}}, sliding, ticks, [](const devices::HapticState&) {},
-              {.before_tick =
-                   [](std::int64_t tick, haptics::HoldRequests& requests) {
-                     if (tick == 3) requests.release(0);
-                     if (tick == 4) requests.grasp(0, 0);
-                   },
-               .observer = &recorder});
+                       {.before_tick =
+                            [](std::int64_t tick, haptics::HoldRequests& requests) {
+                              if (tick == 3) requests.release(0);
+                              if (tick == 4) requests.grasp(0, 0);
+                            },
+                        .observer = &recorder});
   recorder.close();
   std::ifstream file(log_path(), std::ios::binary);
   return {std::istreambuf_iterator<char>(file), {}};
