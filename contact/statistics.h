@@ -22,7 +22,7 @@ struct SearchStatistics {
 struct CallStatistics {
   std::int64_t calls = 0;
   std::int64_t ended_early = 0;  ///< calls that ended because their work was used up
-  /// Steps whose friction was not computed to the end, because its work was used up. They pass through nothing, but
+  /// Steps whose friction was not solved, mostly because its work was used up first. They pass through nothing, but
   /// their forces are not in balance with the springs.
   std::int64_t unsettled_friction = 0;
   std::int64_t most_work = 0;  ///< of a call, without its searches; unit as in `SlidingRules::work_budget`

@@ -53,6 +53,7 @@ void validate(const DeviceDescriptor& descriptor) {
     refuse("update_rate", "must lie between 1 and 100000 Hz");
   if (descriptor.frozen < std::chrono::nanoseconds(0)) refuse("frozen", "must not be negative");
   if (descriptor.delay < std::chrono::nanoseconds(0)) refuse("delay", "must not be negative");
+  if (descriptor.delay > std::chrono::seconds(1)) refuse("delay", "must not be longer than a second");
   for (std::size_t i = 0; i < kGloveJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];

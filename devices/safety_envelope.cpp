@@ -14,7 +14,6 @@ using std::chrono::nanoseconds;
 constexpr double kFadePeriods = 7.0;
 constexpr double kLongestFallPeriods = 15.0;  // at 1 kHz, a force that falls in 20 gives more energy than is there
 constexpr double kReturn_s = 0.2;
-constexpr std::chrono::milliseconds kWatchdog{10};  // after which a device without a command exerts nothing
 constexpr double kMeanTime_s = 10.0;
 constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
 
@@ -59,7 +58,8 @@ SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patien
   descriptor_.max_force = std::min(descriptor_.max_force, force_rate_ * longest_fall_s);
   descriptor_.max_torque = std::min(descriptor_.max_torque, torque_rate_ * longest_fall_s);
   joint_torque_rate_ = rate_or_default(descriptor_.max_joint_torque_rate, descriptor_.max_joint_torque, descriptor_);
-  given_ = std::make_unique<GivenWrenches>(descriptor_.delay, std::max<nanoseconds>(kWatchdog, 2 * period_));
+  given_ =
+      std::make_unique<GivenWrenches>(descriptor_.delay, std::max<nanoseconds>(kExertedWithoutCommand, 2 * period_));
 }
 
 SafetyEnvelope::SafetyEnvelope(SafetyEnvelope&&) noexcept = default;

@@ -67,7 +67,7 @@ std::string to_text(const SafeCommand& command);
 /// the derivation). When there is no force any more, the energy is at most 0.1 J. Below 0.1 J it recovers: without a
 /// force by 0.3 W; in a calm contact, in which less than 10 mJ went to and fro in about the last half second, by up to
 /// 0.5 W; while a hand slower than 30 mm/s trembles, by 0.15 W; at once while the force returns from an interruption
-/// and up to half a second after. All this together is at most 1 J and 0.3 W. For a glove that tells the delay of its
+/// and up to half a second after. All this together is at most 1 J and 0.25 W. For a glove that tells the delay of its
 /// link, the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an
 /// oscillation that gives more than 20 mW and is faster than that, and a hand at rest feels no jump. Joint torques are
 /// not counted. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002, for the observer;
@@ -96,6 +96,7 @@ class SafetyEnvelope {
   /// caller. Throws as `validate` does.
   explicit SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods = 3.0,
                           std::chrono::nanoseconds period_of_caller = std::chrono::nanoseconds(0));
+  /// One that was moved from must not be used.
   SafetyEnvelope(SafetyEnvelope&&) noexcept;
   SafetyEnvelope& operator=(SafetyEnvelope&&) noexcept;
   ~SafetyEnvelope();
@@ -175,7 +176,7 @@ class SafetyEnvelope {
   double came_ = 0.0;     // J, in about the last half second
   double went_ = 0.0;
   double balance_ = 0.0;                     // likewise, what came less what went
-  std::chrono::nanoseconds quick_until_{0};  // up to then the hand does not count as at rest
+  std::chrono::nanoseconds moves_until_{0};  // up to then the hand does not count as at rest
   double energy_scale_ = 1.0;
   std::chrono::nanoseconds free_until_{0};  // up to then the force returns, and the refill pays for its work
   std::unique_ptr<GivenWrenches> given_;
@@ -186,7 +187,8 @@ class SafetyEnvelope {
 
   bool has_state_ = false;
   GloveState state_;                                    // newest finite one
-  std::chrono::nanoseconds measured_{0};                // when, on the caller's clock
+  GloveState booked_;                                   // up to which its work is booked
+  std::chrono::nanoseconds booked_at_{0};               // when it was measured, on the caller's clock
   std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
   std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
   std::chrono::nanoseconds late_time_{0};               // the time of that state

@@ -59,7 +59,7 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const c
   CouplingDamping& B = coupling.damping;
   B.translational = std::min(damping(K.translational, limit.translational), device.max_damping);
   B.rotational = damping(K.rotational, limit.rotational);
-  const double damping_share = limit.share_beside(K, {B.translational / lag, B.rotational / lag});
+  const double damping_share = limit.share_of_damping(K, {B.translational / lag, B.rotational / lag});
   B = {damping_share * B.translational, damping_share * B.rotational};
   return coupling;
 }

@@ -55,7 +55,7 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::Co
 
 /// The same without the check, for a part whose reference point is `lever` (metres) from the device's. There the spring
 /// against translation also turns the device, like a spring of K l² against rotation, for which the device's rotational
-/// damping has to suffice, too. Real-time safe.
+/// damping has to suffice, too; its `max_rotational_stiffness` does not count for that. Real-time safe.
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever = 0.0) noexcept;

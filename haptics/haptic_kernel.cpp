@@ -92,12 +92,12 @@ struct HapticKernel::Hand {
   /// the share of the coupling's force that is left: force and torque shrink alike, so that the wrench stays a sum of
   /// contact normals.
   double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
-                double distance, double dt) noexcept {
+                double distance, bool is_new, double dt) noexcept {
     constexpr double kTime_s = 0.1;
     constexpr double kMost_s = 1.0;
     const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
     link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
-    lever_m += std::min(1.0, dt / kTime_s) * (distance - lever_m);
+    if (std::isfinite(distance)) lever_m += (is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (distance - lever_m);
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
     present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay, lever_m);
@@ -295,7 +295,8 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   const Eigen::Vector3d& p_Vref = set.parts[p].p_Vref;
   const double lever = part.radius + (p_Vref - part.p_Vref).norm();  // no point of the part is farther from p_Vref
   const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * p_Vref) : p_WH;
-  const double softness = hand.soften(coupling, period_, state.link_delay, (p_Wref - p_WH).norm(), dt);
+  const double softness =
+      hand.soften(coupling, period_, state.link_delay, (p_Wref - p_WH).norm(), tick.part != hand.last_part, dt);
   if (tick.part != hand.last_part || p_Vref != hand.p_Vref) {
     hand.contacts.move_reference(hand.p_Wref, p_Wref);
     hand.owed = 0.0;

@@ -23,7 +23,9 @@ class LinkWatch {
     for (const std::string& reason : refusals_of(link)) {
       if (told_.insert(reason).second) sentences.push_back("states on GLOVE_STATE are refused: " + reason);
     }
-    if (link.out_of_sequence - out_of_sequence_ > kOftenOutOfSequence && told_.insert("sequence").second)
+    const std::uint64_t out_of_sequence = link.out_of_sequence - out_of_sequence_;
+    const bool most_are = out_of_sequence > kOftenOutOfSequence && out_of_sequence > link.accepted - accepted_;
+    if (most_are && told_.insert("sequence").second)
       sentences.push_back("states of " + name_ + " are refused: their sequence numbers do not rise");
     out_of_sequence_ = link.out_of_sequence;
     if (second_glove_appears(link))

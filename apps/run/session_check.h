@@ -18,7 +18,7 @@ namespace glissade::apps {
 using HandModels = std::vector<std::shared_ptr<const grasping::HandModel>>;
 
 /// Checks the visible poses of parts and hands in the kept ticks by brute force, with a progress bar. A body at rest
-/// repeats its pose, which is checked once.
+/// repeats its pose, which is checked once in each of 64 strides over the run.
 class SessionCheck {
  public:
   /// `hands` are the models of the hands, null for one without fingers in the simulation. The check ends early

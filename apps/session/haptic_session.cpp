@@ -239,6 +239,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
       {.period = period, .ticks = ticks, .spin = settings.spin, .observer = recorders.observer()});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
+  std::set<std::string> told;
   std::vector<LinkWatch> links;
   for (const std::int64_t number : numbers)
     links.emplace_back(number);
@@ -248,7 +249,8 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     RunWatch::News news = run_watch.news(server.late_ticks());
     for (std::size_t h = 0; h < gloves.size(); ++h) {
-      std::ranges::move(links[h].news(gloves[h]->statistics()), std::back_inserter(news.events));
+      for (std::string& sentence : links[h].news(gloves[h]->statistics()))
+        if (told.insert(sentence).second) news.events.push_back(std::move(sentence));  // it may concern all gloves
     }
     for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
       news.events.push_back(std::move(sentence));

@@ -161,7 +161,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
                                                      static_cast<long long>(session.calls.calls)));
   }
   if (session.calls.unsettled_friction > 0) {
-    rows.emplace_back("friction not in balance", formatted("%lld steps: their work was used up first",
+    rows.emplace_back("friction not in balance", formatted("%lld steps: it was not solved in time",
                                                            static_cast<long long>(session.calls.unsettled_friction)));
   }
   if (session.real_time) add_real_time_rows(*session.real_time, rows);

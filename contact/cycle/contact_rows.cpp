@@ -282,7 +282,7 @@ bool ContactRows::belongs_to(const CoupledRow& row, const std::array<bool, kMaxP
 /// The contact stops the parts at a smaller gap from now on, and where the gap is smaller still, as they are.
 void ContactRows::give_up_margin(std::size_t row) {
   Contact& contact = contacts_[row];
-  contact.margin = least_gap(contact);
+  contact.margin = std::min(contact.margin, least_gap(contact));
   rows_[row].bound = std::min({rows_[row].bound, 0.0, contact.margin - contact.gap});
 }
 

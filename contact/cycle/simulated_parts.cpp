@@ -81,8 +81,8 @@ Eigen::Isometry3d start_pose(const HeldPart& part) {
 void check_rounding(const std::string& part_name, double margin, double certain_distance) {
   if (certain_distance <= kMinClearanceOfMargin * margin) return;
   std::ostringstream sentence;
-  sentence << part_name << " is too far from the origin for its margin of " << margin
-           << " m: there, a distance is certain to " << certain_distance << " m only";
+  sentence << "the scene reaches too far from the origin for the margin of " << part_name << ", " << margin
+           << " m: a distance there is certain to " << certain_distance << " m only";
   throw std::invalid_argument(sentence.str());
 }
 

@@ -44,9 +44,14 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   const bool plausible = is_plausible(state);
   if (!plausible) distrust_until_ = now + kDistrust;
   update_offset(state, now);
-  const nanoseconds measured = std::min(now, state.time + offset_);
-  if (plausible && has_state_) observe_work(state, measured_, measured);
-  measured_ = measured;
+  const nanoseconds measured = state.time + offset_;
+  // Where the clock does not go on, the way counts once it does.
+  const bool goes_on = has_state_ && plausible && state.time >= booked_.time;
+  if (goes_on && measured > booked_at_) observe_work(state, booked_at_, measured);
+  if (!goes_on || measured > booked_at_) {
+    booked_ = state;
+    booked_at_ = measured;
+  }
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;
   state_ = state;

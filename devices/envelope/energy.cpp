@@ -29,6 +29,7 @@ constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr double kStir_s = 0.5;
 constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is not calm
 constexpr double kCalmRefill_W = 0.5;
+constexpr double kMostGiven_J = 0.1;
 constexpr double kTremblingRefill_W = 0.15;
 constexpr double kRestingSpeed_m_per_s = 0.03;
 constexpr double kRestingTurnRate = 0.5;  // rad/s
@@ -52,11 +53,11 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
 
 }  // namespace
 
-/// The work between two states. What the hand did in between is taken as the cubic curve through both poses with both
-/// velocities: where states stay away, the force is gone after a few periods of a long way. How the hand really went
-/// there is not known, so it has put in nothing.
+/// The work since the state up to which it is booked. What the hand did in between is taken as the cubic curve through
+/// both poses with both velocities: where states stay away, the force is gone after a few periods of a long way. How
+/// the hand really went there is not known, so it has put in nothing.
 void SafetyEnvelope::observe_work(const GloveState& state, nanoseconds begin, nanoseconds end) noexcept {
-  const double seconds = in_seconds(state.time - state_.time);
+  const double seconds = in_seconds(state.time - booked_.time);
   const auto curve = [seconds](const Eigen::Vector3d& way, const Eigen::Vector3d& v_begin,
                                const Eigen::Vector3d& v_end) {
     return [=](double u) {
@@ -64,10 +65,17 @@ void SafetyEnvelope::observe_work(const GloveState& state, nanoseconds begin, na
                              seconds * u * (1.0 - u) * ((1.0 - u) * v_begin - u * v_end));
     };
   };
+  const Eigen::Vector3d way = state.X_WH.translation() - booked_.X_WH.translation();
+  const Eigen::Vector3d turn = turn_between(booked_.X_WH.linear(), state.X_WH.linear());
   const double given =
-      given_->work(begin, end, curve(state.X_WH.translation() - state_.X_WH.translation(), state_.v_WH, state.v_WH),
-                   curve(turn_between(state_.X_WH.linear(), state.X_WH.linear()), state_.w_WH, state.w_WH));
-  book(end - begin > patience_ ? std::min(0.0, -given) : -given);
+      given_->work(begin, end, curve(way, booked_.v_WH, state.v_WH), curve(turn, booked_.w_WH, state.w_WH));
+  const bool is_known = end - begin <= std::max<nanoseconds>(patience_, kExertedWithoutCommand);
+  book(is_known ? -given : std::min(0.0, -given));
+
+  // Not every device tells its velocity.
+  const bool moves = std::max(state.v_WH.norm(), way.norm() / seconds) > kRestingSpeed_m_per_s ||
+                     std::max(state.w_WH.norm(), turn.norm() / seconds) > kRestingTurnRate;
+  if (moves) moves_until_ = end + kRested;
 }
 
 void SafetyEnvelope::book(double change) noexcept {
@@ -75,7 +83,8 @@ void SafetyEnvelope::book(double change) noexcept {
   // No more than that counts, so that a contact is calm soon after a great stroke.
   double& stirred = change > 0.0 ? came_ : went_;
   stirred = std::min(stirred + std::abs(change), kMostStirred_J);
-  balance_ = std::clamp(balance_ + change, -kMostStirred_J, kMostStirred_J);
+  // Bounded, so that a hand at rest is known soon; what was given counts for longer than what was put in.
+  balance_ = std::clamp(balance_ + change, -kMostGiven_J, kMostStirred_J);
 }
 
 double SafetyEnvelope::most_energy() const noexcept {
@@ -124,12 +133,11 @@ void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) n
   came_ *= kept;
   went_ *= kept;
   balance_ *= kept;
-  if (state_.v_WH.norm() > kRestingSpeed_m_per_s || state_.w_WH.norm() > kRestingTurnRate) quick_until_ = now + kRested;
   // A force that comes back and slowly moves the hand is no oscillation.
   const double calm = std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
   if (energy_ < kStartEnergy_J) {
     // A hand that rests trembles, and puts in what it gets; an oscillation that feeds on the device gets more.
-    const double trembling = now >= quick_until_ && balance_ > 0.0 ? kTremblingRefill_W : 0.0;
+    const double trembling = now >= moves_until_ && balance_ > 0.0 ? kTremblingRefill_W : 0.0;
     const double recovery = has_force ? std::max(calm * kCalmRefill_W, trembling) : kRecovery_W;
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(kStartEnergy_J - energy_, most);
@@ -155,8 +163,10 @@ void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reaso
                                                share_of_largest(forces.t, descriptor_.max_torque));
   const double fall = kFall_J * size * size;
   // A device whose rates are low goes on giving while its force falls.
-  const double ahead_s = std::max(
-      {kEnergyPeriods * in_seconds(period_), time_to_zero(last_.f, force_rate_), time_to_zero(last_.t, torque_rate_)});
+  // What it has been given and does not exert yet is not counted yet.
+  const double ahead_s = in_seconds(descriptor_.delay) +
+                         std::max({kEnergyPeriods * in_seconds(period_), time_to_zero(last_.f, force_rate_),
+                                   time_to_zero(last_.t, torque_rate_)});
   const double power = energy_scale_ * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
   const double going_on = ahead_s * std::max(0.0, power);
   const double available = std::max(0.0, energy_ - kReserve_J);

@@ -14,6 +14,9 @@ namespace glissade::devices {
 inline constexpr double kStartEnergy_J = 0.1;
 inline constexpr double kMostRefill_J = 1.0;  // for returns and calm contacts; comes back by kRefill_W
 
+/// After which a device without a command exerts nothing (docs/safety.md: what the maker must do).
+inline constexpr std::chrono::milliseconds kExertedWithoutCommand{10};
+
 inline double in_seconds(std::chrono::nanoseconds time) noexcept {
   return std::chrono::duration<double>(time).count();
 }

@@ -3,29 +3,38 @@
 /// What a device has exerted, and when: for the work between two states.
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cstddef>
+#include <vector>
 
 #include <Eigen/Core>
 
 namespace glissade::devices {
 
 /// The wrenches that were given to a device. Each acts `delay` after it was given, until the next one acts, and no
-/// longer than `watchdog`: a device without commands exerts nothing. Not thread-safe. Real-time safe.
+/// longer than `longest`: a device without commands exerts nothing. Not thread-safe. Real-time safe after construction.
 class GivenWrenches {
  public:
-  GivenWrenches(std::chrono::nanoseconds delay, std::chrono::nanoseconds watchdog)
-      : delay_(delay), watchdog_(watchdog) {}
+  /// Has room for as many as `give` can take in these times, ten in a millisecond.
+  GivenWrenches(std::chrono::nanoseconds delay, std::chrono::nanoseconds longest)
+      : delay_(delay),
+        longest_(longest),
+        wrenches_(64 + static_cast<std::size_t>((delay + longest) / std::chrono::microseconds(100))) {}
 
   /// At `now` the device gets force (N) and torque (Nm). A time before the last one counts as that.
   void give(std::chrono::nanoseconds now, const Eigen::Vector3d& f, const Eigen::Vector3d& t) noexcept {
-    if (count_ > 0) now = std::max(now, at(count_ - 1).given);
-    if (count_ == kMost) drop_oldest();
-    wrenches_[(first_ + count_++) % kMost] = {now, f, t};
+    const bool is_zero = f.isZero(0.0) && t.isZero(0.0);
+    if (count_ > 0) {
+      const Wrench& last = at(count_ - 1);
+      if (is_zero && last.f.isZero(0.0) && last.t.isZero(0.0))
+        return;  // so a silence does not displace what was before
+      now = std::max(now, last.given);
+    }
+    if (count_ == wrenches_.size()) drop_oldest();
+    wrenches_[(first_ + count_++) % wrenches_.size()] = {now, f, t};
   }
 
-  /// The work (J) on a hand whose motion along the forces between `begin` and `end` is so far: `moved` and `turned` are
+  /// The work (J) on a hand whose motion between `begin` and `end`, which is later, is so far: `moved` and `turned` are
   /// functions of the share of this time, from 0 to 1, and return the way until then (m, rad). Forgets what acts no
   /// more at the end.
   template <typename Moved, typename Turned>
@@ -36,10 +45,10 @@ class GivenWrenches {
       return std::clamp(std::chrono::duration<double>(time - begin).count() / duration, 0.0, 1.0);
     };
     double sum = 0.0;
-    for (std::size_t i = 0; i < count_ && duration > 0.0; ++i) {
+    for (std::size_t i = 0; i < count_; ++i) {
       const Wrench& wrench = at(i);
       const std::chrono::nanoseconds from = wrench.given + delay_;
-      std::chrono::nanoseconds until = from + watchdog_;
+      std::chrono::nanoseconds until = from + longest_;
       if (i + 1 < count_) until = std::min(until, at(i + 1).given + delay_);
       const double a = share(from);
       const double b = share(until);
@@ -57,19 +66,15 @@ class GivenWrenches {
     Eigen::Vector3d t = Eigen::Vector3d::Zero();
   };
 
-  /// Those of a longer delay than so many periods are forgotten too early; and while states stay away, but not their
-  /// fade.
-  static constexpr std::size_t kMost = 256;
-
-  const Wrench& at(std::size_t i) const noexcept { return wrenches_[(first_ + i) % kMost]; }
+  const Wrench& at(std::size_t i) const noexcept { return wrenches_[(first_ + i) % wrenches_.size()]; }
   void drop_oldest() noexcept {
-    first_ = (first_ + 1) % kMost;
+    first_ = (first_ + 1) % wrenches_.size();
     --count_;
   }
 
   std::chrono::nanoseconds delay_;
-  std::chrono::nanoseconds watchdog_;
-  std::array<Wrench, kMost> wrenches_{};
+  std::chrono::nanoseconds longest_;
+  std::vector<Wrench> wrenches_;  // a ring
   std::size_t first_ = 0;
   std::size_t count_ = 0;
 };

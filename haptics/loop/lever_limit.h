@@ -27,7 +27,8 @@ struct LeverLimit {
   }
 
   /// The largest share d ≤ 1 of the second spring that is passive beside the first one, which is.
-  double share_beside(const contact::CouplingStiffness& K, const contact::CouplingStiffness& second) const noexcept {
+  double share_of_damping(const contact::CouplingStiffness& K,
+                          const contact::CouplingStiffness& second) const noexcept {
     const double left = translational - K.translational;
     const double left_r = rotational - K.rotational;
     const double sum = left * second.rotational + left_r * second.translational + of_lever(second.translational);
@@ -41,7 +42,9 @@ struct LeverLimit {
   /// The smaller root of a x² − b x + c with a, b, c ≥ 0, at most 1.
   static double smaller_root(double a, double b, double c) noexcept {
     const double sum = b + std::sqrt(std::max(0.0, b * b - 4.0 * a * c));
-    return sum > 0.0 ? std::min(1.0, 2.0 * c / sum) : 1.0;
+    if (sum == 0.0) return 1.0;
+    const double root = 2.0 * c / sum;
+    return root >= 0.0 ? std::min(1.0, root) : 0.0;  // nothing where a number is not finite
   }
 };
 

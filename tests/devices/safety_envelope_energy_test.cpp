@@ -61,6 +61,36 @@ TEST_F(Envelope, GivesAReducedForceBackToAHandThatTrembles) {
   EXPECT_GT(last, 18.0);
 }
 
+/// 2.5 mm to and fro, 5 times a second, by a force that is greater on the way out: 20 N against 10 N.
+TEST_F(Envelope, GivesNothingBackToASlowOscillationThatFeedsOnTheDevice) {
+  push_at(0.0, 800);
+  push_at(0.1, 500);
+  double given = 0.0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    const double speed = ms % 200 < 100 ? -0.025 : 0.025;
+    state_.v_WH.x() = speed;
+    state_.X_WH.translation().x() += 1e-3 * speed;
+    GloveCommand wanted = pull(speed > 0.0 ? 20.0 : 10.0);
+    wanted.session = session_;
+    wanted.sequence = ++sequence_;
+    given += 1e-3 * speed * tick(wanted).values().f_H_W.x();
+  }
+  EXPECT_LT(given, 0.3) << "in ten seconds";
+}
+
+TEST_F(Envelope, CountsTheWayOfStatesWithOneTimeOnceTheTimeGoesOn) {
+  push_at(0.0, 800);
+  const double before = push_at(0.0, 1).energy();
+  for (int i = 0; i < 4; ++i) {  // four states of a glove whose clock counts milliseconds
+    state_.X_WH.translation().x() -= 0.25e-4;
+    ++state_.sequence;
+    GloveCommand wanted = pull(20.0);
+    wanted.state_time = state_.time;
+    envelope_.limit(wanted, state_, now_);
+  }
+  EXPECT_NEAR(push_at(0.0, 1).energy(), before + 20.0 * 1e-4, 1e-9);
+}
+
 TEST_F(Envelope, CountsWhatTheDeviceExertsAndNotWhatItHasJustBeenTold) {
   DeviceDescriptor late = kDevice;
   late.delay = milliseconds(40);
