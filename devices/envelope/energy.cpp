@@ -169,7 +169,8 @@ void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reaso
                                    time_to_zero(last_.t, torque_rate_)});
   const double power = energy_scale_ * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
   const double going_on = ahead_s * std::max(0.0, power);
-  const double available = std::max(0.0, energy_ - kReserve_J);
+  const double under_way = std::max(0.0, given_->work_to_come(last_call_, state_.v_WH, state_.w_WH));
+  const double available = std::max(0.0, energy_ - kReserve_J - under_way);
   const double root = going_on + std::sqrt(going_on * going_on + 4.0 * fall * available);
   const double share = available > 0.0 ? std::min(1.0, 2.0 * available / root) : 0.0;
   const double scale = energy_scale_ * share;

@@ -59,6 +59,18 @@ class GivenWrenches {
     return sum;
   }
 
+  /// The work (J) that those before the newest will still do on a hand that goes on at velocity v (m/s) and w (rad/s).
+  double work_to_come(std::chrono::nanoseconds now, const Eigen::Vector3d& v, const Eigen::Vector3d& w) const noexcept {
+    double sum = 0.0;
+    for (std::size_t i = 0; i + 1 < count_; ++i) {
+      const std::chrono::nanoseconds from = at(i).given + delay_;
+      const std::chrono::nanoseconds until = std::min(from + longest_, at(i + 1).given + delay_);
+      const double seconds = std::chrono::duration<double>(until - std::max(from, now)).count();
+      if (seconds > 0.0) sum += seconds * (at(i).f.dot(v) + at(i).t.dot(w));
+    }
+    return sum;
+  }
+
  private:
   struct Wrench {
     std::chrono::nanoseconds given{0};

@@ -17,8 +17,9 @@ namespace glissade::grasping {
 
 /// Contacts of all hands with one loose part. The part resists a little, as if it lay on something with friction: the
 /// targets of segments stay `GraspingHand::kResistance_m` within it. So a segment that pushes goes on touching, and the
-/// others have time to come to the part as well: an object lies on several fingers, or is held between two. Not
-/// thread-safe.
+/// others have time to come to the part as well: an object lies on several fingers, or is held between two. What a
+/// segment has moved in a late call, beyond a millisecond, does not push yet: the others have moved as well.
+/// Not thread-safe.
 class Push {
  public:
   /// In speeds of the fastest segment that pushes: a part that comes free goes no faster, however deep the target lies.
@@ -27,6 +28,7 @@ class Push {
   /// Milliseconds: a call for a longer time pushes no farther. The other fingers, which have moved on meanwhile as
   /// well, come to the part after this call, and may close round it before the next one.
   static constexpr double kLongestPush_ms = 5.0;
+  static constexpr double kRegularCall_ms = 1.0;
   /// Metres a millisecond: hands as slow as this stand still.
   static constexpr double kStill_m_per_ms = 1e-6;
 
@@ -46,6 +48,8 @@ class Push {
   static constexpr double kCompliance = 0.1;
 
   std::vector<ContactPlane> planes_;
+  std::vector<double> depths_;           // of the targets
+  std::vector<double> speeds_m_per_ms_;  // of the segments
   double fastest_m_per_ms_ = 0.0;
   std::vector<double> forces_;
 };

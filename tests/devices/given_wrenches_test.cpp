@@ -35,6 +35,15 @@ TEST(GivenWrenches, EachActsAfterTheDelayOfTheDevice) {
       << "the newest of before still acts";
 }
 
+TEST(GivenWrenches, OnesUnderWayWillStillDoTheirWork) {
+  GivenWrenches given(milliseconds(40), milliseconds(1000));
+  for (int ms = 0; ms <= 30; ++ms)
+    given.give(milliseconds(ms), {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0});
+  EXPECT_NEAR(given.work_to_come(milliseconds(30), {0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}), 0.03 * (0.5 + 0.2), 1e-12);
+  EXPECT_NEAR(given.work_to_come(milliseconds(60), {0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}), 0.01 * (0.5 + 0.2), 1e-12);
+  EXPECT_EQ(given.work_to_come(milliseconds(70), {0.5, 0.0, 0.0}, {0.0, 0.1, 0.0}), 0.0);
+}
+
 TEST(GivenWrenches, NoneActsLongerThanTheWatchdogAllows) {
   GivenWrenches given(milliseconds(0), milliseconds(10));
   given.give(milliseconds(0), {1.0, 0.0, 0.0}, Vector3d::Zero());

@@ -78,6 +78,13 @@ TEST_F(PushedBall, GoesNoFartherInALateCallThanInFiveMilliseconds) {
   EXPECT_NEAR(displacement(60.0).v.x(), -Push::kFastest * speed_m_per_ms * 5.0, 1e-6);
 }
 
+TEST_F(PushedBall, IsNotPushedYetByWhatTheSegmentHasMovedInALateCall) {
+  speed_m_per_ms = 0.3e-3;
+  press(Vector3d::UnitX(), GraspingHand::kResistance_m + 1e-3);
+  EXPECT_LT(displacement(1.0).v.x(), -0.4e-3);
+  EXPECT_TRUE(displacement(5.0).is_zero()) << "1.2 mm of its way are of this call";
+}
+
 TEST_F(PushedBall, StaysWhileTheSegmentStandsStill) {
   speed_m_per_ms = 0.0;
   press(Vector3d::UnitX(), GraspingHand::kResistance_m + 30e-3);

@@ -75,7 +75,8 @@ class DelayedWall {
       : one_way_(static_cast<std::size_t>(one_way.count())),
         hand_{.mass = mass, .damping = device.damping + of_hand, .z = 5e-3},
         kernel_({{part_.p_Vref(), part_.radius(), {stiffness, 1.0}}}, {{device, 0}}),
-        glove_(device, 6.0) {
+        glove_(device, 6.0),
+        in_device_(static_cast<std::size_t>(device.delay / std::chrono::milliseconds(1)), 0.0) {
     wall_.sequence = 1;
     wall_.row_count = 1;
     wall_.row_array[0] = {{{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero(), 0.0}}};
@@ -106,8 +107,11 @@ class DelayedWall {
       commands_.pop_front();
     }
     command_ = glove_.limit(newest_, state_, now_);
+    in_device_.push_back(command_.values().f_H_W.z());
+    force_ = in_device_.front();
+    in_device_.pop_front();
     for (int i = 0; i < 10; ++i)
-      hand_.step(push + command_.values().f_H_W.z(), 1e-4);
+      hand_.step(push + force_, 1e-4);
   }
 
   /// The server sends no commands for so long.
@@ -117,7 +121,8 @@ class DelayedWall {
   void halt(std::chrono::milliseconds time) { halted_until_ = now_ + time; }
 
   const devices::SafeCommand& command() const { return command_; }
-  double force() const { return command_.values().f_H_W.z(); }
+  /// What the device exerts.
+  double force() const { return force_; }
   double z() const { return hand_.z; }
   const haptics::HapticKernel& kernel() const { return kernel_; }
 
@@ -127,6 +132,8 @@ class DelayedWall {
   Mass hand_;
   haptics::HapticKernel kernel_;
   devices::SafetyEnvelope glove_;
+  std::deque<double> in_device_;  // forces, N, which it exerts after its own delay
+  double force_ = 0.0;
   haptics::ContactSet wall_;
   devices::GloveState state_;
   std::deque<devices::GloveState> states_;

@@ -209,5 +209,22 @@ TEST(DelayedWall, NeverGivesBackMoreEnergyThanTheHandPutIn) {
   }
 }
 
+// Its damping is told four times too great, so the coupling alone would let it oscillate.
+TEST(DelayedWall, OfADeviceThatIsLateItselfGivesNoMoreEither) {
+  for (const milliseconds delay : {milliseconds(5), milliseconds(10), milliseconds(20), milliseconds(40)}) {
+    devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+    device.delay = delay;
+    device.damping = 20.0;
+    DelayedWall wall(device, 0.4, 4000.0, milliseconds(0), -15.0);
+    double work = 0.0;
+    for (int ms = 1; ms <= 20'000; ++ms) {
+      const double before = wall.z();
+      wall.step(-8.0);
+      work += wall.force() * (wall.z() - before);
+      ASSERT_LE(work, 0.1 + 1.0 + 0.3e-3 * ms) << delay.count() << " ms";
+    }
+  }
+}
+
 }  // namespace
 }  // namespace glissade::haptics
