@@ -109,7 +109,7 @@ struct LinkStatistics {
   }
 };
 
-/// Why messages were refused whoever sent them, such as "a number is not finite"; empty if none were.
+/// The reasons for which messages were refused for their contents, such as "a number is not finite".
 std::vector<std::string> refusals_of(const LinkStatistics& link);
 
 }  // namespace glissade::devices

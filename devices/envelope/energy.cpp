@@ -83,7 +83,8 @@ void SafetyEnvelope::book(double change) noexcept {
   // No more than that counts, so that a contact is calm soon after a great stroke.
   double& stirred = change > 0.0 ? came_ : went_;
   stirred = std::min(stirred + std::abs(change), kMostStirred_J);
-  // Bounded, so that a hand at rest is known soon; what was given counts for longer than what was put in.
+  // Both bounds let old strokes be forgotten soon. Energy given to the hand is remembered for longer than energy put
+  // in.
   balance_ = std::clamp(balance_ + change, -kMostGiven_J, kMostStirred_J);
 }
 

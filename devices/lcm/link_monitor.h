@@ -25,7 +25,7 @@ enum class MessageError {
   kOutOfSequence
 };
 
-/// Why a message is refused whoever sent it, such as "a number is not finite".
+/// The reason for refusing a message for its contents, such as "a number is not finite".
 std::string_view words_of(MessageError error) noexcept;
 
 /// Who sent a message, and its place among the messages of this sender.
