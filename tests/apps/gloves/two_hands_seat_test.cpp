@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <memory>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@
 
 #include <glissade/geometry/mesh_generators.h>
 
+#include "faults/stall_meter.h"
 #include "finger_hands.h"
 #include "glissade_program.h"
 #include "poses.h"
@@ -104,7 +106,9 @@ class TwoHandsSeat : public testing::Test {
   static void SetUpTestSuite() {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
     folder = std::make_unique<test_support::TemporaryFolder>();
+    test_support::StallMeter stalls;
     server = test_support::record_two_hands(*folder, scene(), {script(kGrip_m), script(-kGrip_m)}, kSeatSeconds, log());
+    stall = std::chrono::duration_cast<std::chrono::microseconds>(stalls.end());
     ASSERT_EQ(server.exit_code, 0) << server.standard_error;
     recorded = test_support::read_ticks(log());
     ASSERT_FALSE(recorded.empty());
@@ -123,6 +127,7 @@ class TwoHandsSeat : public testing::Test {
 
   static inline std::unique_ptr<test_support::TemporaryFolder> folder;
   static inline test_support::ProgramResult server;
+  static inline std::chrono::microseconds stall{0};  // the longest of the run
   static inline std::vector<RecordedTick> recorded;
 };
 
@@ -154,14 +159,24 @@ TEST_F(TwoHandsSeat, NothingPenetrates) {
     ASSERT_FALSE(bodies.collide(recorded[i].state)) << "after " << i << " ms";
 }
 
-TEST_F(TwoHandsSeat, FeelsTheForksAndNothingAfterwards) {
-  test_support::expect_nothing_that_jumps(recorded);
+TEST_F(TwoHandsSeat, FeelsTheForks) {
   std::array<double, 2> greatest_N{};
+  for (const RecordedTick& tick : recorded) {
+    if (!both_hold(tick) || !is_seated(tick)) continue;
+    for (std::size_t h = 0; h < 2; ++h)
+      greatest_N[h] = std::max(greatest_N[h], tick.state.hands[h].force_W.norm());
+  }
+  // Where states or commands come late again and again, the force never returns fully: `run_where_quiet` judges.
+  RecordProperty("stall_us", static_cast<int>(stall.count()));
+  EXPECT_GT(greatest_N[0], 1.0);
+  EXPECT_GT(greatest_N[1], 1.0);
+}
+
+TEST_F(TwoHandsSeat, FeelsNothingThatJumpsAndNothingAfterwards) {
+  test_support::expect_nothing_that_jumps(recorded);
   std::optional<std::chrono::nanoseconds> left;  // both have opened, and are away from the bar
   for (const RecordedTick& tick : recorded) {
-    for (std::size_t h = 0; h < 2; ++h) {
-      const devices::HapticHandState& hand = tick.state.hands[h];
-      if (both_hold(tick) && is_seated(tick)) greatest_N[h] = std::max(greatest_N[h], hand.force_W.norm());
+    for (const devices::HapticHandState& hand : std::span(tick.state.hands).first(2)) {
       if (!left || tick.time < *left + std::chrono::milliseconds(100)) continue;
       ASSERT_TRUE(hand.force_W.isZero(0.0));
       ASSERT_EQ(hand.joint_torques, JointValues{});
@@ -171,8 +186,6 @@ TEST_F(TwoHandsSeat, FeelsTheForksAndNothingAfterwards) {
     });
     if (!left && is_seated(tick) && are_above) left = tick.time;
   }
-  EXPECT_GT(greatest_N[0], 1.0);
-  EXPECT_GT(greatest_N[1], 1.0);
   ASSERT_TRUE(left);
 }
 
