@@ -7,8 +7,9 @@
 
 namespace glissade::devices {
 
-SimulatedGloveService::SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
-                                             const LcmGloveHostOptions& options, Observer observer)
+SimulatedGloveService::SimulatedGloveService(const std::shared_ptr<LcmBus>& bus, SimulatedGlove glove,
+                                             realtime::Clock& clock, const LcmGloveHostOptions& options,
+                                             Observer observer)
     : host_(bus, glove.descriptor(), options),
       view_(std::make_unique<WearersView>(bus)),
       glove_(std::move(glove)),

@@ -32,7 +32,7 @@ class SimulatedGloveService {
   using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
-  SimulatedGloveService(std::shared_ptr<LcmBus> bus, SimulatedGlove glove, realtime::Clock& clock,
+  SimulatedGloveService(const std::shared_ptr<LcmBus>& bus, SimulatedGlove glove, realtime::Clock& clock,
                         const LcmGloveHostOptions& options = {}, Observer observer = {});
   ~SimulatedGloveService();
 

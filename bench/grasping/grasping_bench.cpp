@@ -194,9 +194,9 @@ std::vector<contact::Obstacle> shelf() {
   }
   std::vector<contact::Obstacle> things;
   for (std::size_t i = 0; i < kThings; ++i) {
-    const auto column = static_cast<double>(i % 14);
-    const auto row = static_cast<double>(i / 14);
-    things.push_back({bodies[i % bodies.size()], at(-1.5 + 0.25 * column, 0.35 + 0.3 * row, -0.1), "a thing"});
+    const std::size_t row = i / 14;
+    const double x = -1.5 + 0.25 * static_cast<double>(i % 14);
+    things.push_back({bodies[i % bodies.size()], at(x, 0.35 + 0.3 * static_cast<double>(row), -0.1), "a thing"});
   }
   return things;
 }

@@ -29,8 +29,8 @@ geometry::TimedPose at_depth(milliseconds time, double depth) {
 /// A glove on its wearer. A server tells from 0.5 s on, within some time, what others have taken or given.
 class WornGlove {
  public:
-  WornGlove(std::vector<geometry::TimedPose> script, const SimulatedGloveParameters& parameters, double supply)
-      : glove_(geometry::PoseTrajectory(std::move(script)), parameters), supply_(supply) {}
+  WornGlove(const std::vector<geometry::TimedPose>& script, const SimulatedGloveParameters& parameters, double supply)
+      : glove_(geometry::PoseTrajectory(script), parameters), supply_(supply) {}
 
   /// A millisecond in which the server wants this force, upwards. Returns the force that the hand gets.
   double step(double wanted) {
