@@ -64,4 +64,10 @@ void validate(const DeviceDescriptor& descriptor) {
   }
 }
 
+double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept {
+  constexpr double kPeriods = 2.0;  // the spring of a finger that taps at 6 rad/s rises hardly faster
+  if (descriptor.max_joint_torque_rate > 0.0) return descriptor.max_joint_torque_rate;
+  return descriptor.max_joint_torque * descriptor.update_rate / kPeriods;
+}
+
 }  // namespace glissade::devices

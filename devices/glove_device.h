@@ -179,7 +179,7 @@ struct DeviceDescriptor {
   double resolution = 0.0;            ///< smallest step of the measured position
   std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, beyond the period and the link
   /// Largest rates of change: of the force (N/s), the torque and each joint torque (Nm/s). 0: from zero to the maximum
-  /// in seven periods of the device.
+  /// in seven periods of the device, and in two for joint torques (`joint_torque_rate`).
   double max_force_rate = 0.0;
   double max_torque_rate = 0.0;
   double max_joint_torque_rate = 0.0;
@@ -199,6 +199,9 @@ struct DeviceDescriptor {
 /// upper limit, unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is
 /// negative.
 void validate(const DeviceDescriptor& descriptor);
+
+/// The rate (Nm/s) by which a joint torque changes at most.
+double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;
 
 /// Who a glove is, and what it can do.
 struct GloveInfo {

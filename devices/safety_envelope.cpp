@@ -57,9 +57,9 @@ SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patien
   const double longest_fall_s = kLongestFallPeriods * in_seconds(period_);
   descriptor_.max_force = std::min(descriptor_.max_force, force_rate_ * longest_fall_s);
   descriptor_.max_torque = std::min(descriptor_.max_torque, torque_rate_ * longest_fall_s);
-  joint_torque_rate_ = rate_or_default(descriptor_.max_joint_torque_rate, descriptor_.max_joint_torque, descriptor_);
-  given_ =
-      std::make_unique<GivenWrenches>(descriptor_.delay, std::max<nanoseconds>(kExertedWithoutCommand, 2 * period_));
+  joint_torque_rate_ = joint_torque_rate(descriptor_);
+  given_ = std::make_unique<GivenWrenches>(descriptor_.delay,
+                                           std::max<nanoseconds>(kExertedWithoutCommand, 2 * period_), period_);
 }
 
 SafetyEnvelope::SafetyEnvelope(SafetyEnvelope&&) noexcept = default;

@@ -131,6 +131,7 @@ class SafetyEnvelope {
   double seconds_since_last_call(std::chrono::nanoseconds now) noexcept;
   void observe(const GloveState& state, std::chrono::nanoseconds now) noexcept;
   bool is_plausible(const GloveState& state) noexcept;
+  bool may_have_gone_to(const GloveState& state) const noexcept;
   void update_offset(const GloveState& state, std::chrono::nanoseconds now) noexcept;
   LimitReasons faults(const GloveCommand& wanted, const GloveState& newest,
                       std::chrono::nanoseconds now) const noexcept;
@@ -190,6 +191,7 @@ class SafetyEnvelope {
   GloveState booked_;                                   // up to which its work is booked
   std::chrono::nanoseconds booked_at_{0};               // when it was measured, on the caller's clock
   std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
+  bool has_caught_up_ = false;                          // the last states jumped after poses that repeated
   std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
   std::chrono::nanoseconds late_time_{0};               // the time of that state
   std::optional<std::chrono::nanoseconds> late_since_;  // when the first state came that was late, as all after it

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <stdexcept>
 #include <string>
@@ -15,6 +17,7 @@ namespace {
 
 constexpr double kFullTorque_rad = 0.8 * std::numbers::pi / 180.0;
 constexpr double kShortArm_m = 2e-3;
+constexpr double kFastestFinger_rad_per_s = 6.0;
 
 FingerLimits checked_limits(const FingerLimits& limits) {
   for (std::size_t joint = 0; joint < limits.lower.size(); ++joint) {
@@ -29,7 +32,8 @@ FingerLimits checked_limits(const FingerLimits& limits) {
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept {
   const double wanted = device.max_joint_torque / kFullTorque_rad;
-  return std::min(wanted, passive_limit(device, device.joint_damping, wanted, lag_of(device, period, link_delay)));
+  return std::min({wanted, devices::joint_torque_rate(device) / kFastestFinger_rad_per_s,
+                   passive_limit(device, device.joint_damping, wanted, lag_of(device, period, link_delay))});
 }
 
 FingerForces::FingerForces(const FingerLimits& limits, const devices::DeviceDescriptor& device,
@@ -70,11 +74,39 @@ void deepen(const FingerRow& row, const devices::JointValues& lags, devices::Joi
   for (std::size_t j = 0; j < lags.size(); ++j)
     depth -= row.rates[j] * lags[j];
   if (depth <= 0.0) return;
+  // Of these joints, the lag closes the gap. By the least squares they go back by `multiplier` times their arm, but to
+  // the visible hand at most.
+  std::array<std::size_t, devices::kGloveJoints> closing{};
+  std::size_t count = 0;
+  double squares = 0.0;
+  const auto arm = [&](std::size_t j) { return lags[j] > 0.0 ? -row.rates[j] : row.rates[j]; };
   for (std::size_t j = 0; j < lags.size(); ++j) {
-    const double arm = lags[j] > 0.0 ? -row.rates[j] : row.rates[j];  // positive where the lag closes the gap
-    if (arm <= 0.0) continue;
-    const double back = std::min(std::abs(lags[j]), depth / arm);
-    depths[j] = std::max(depths[j], std::min(1.0, arm / kShortArm_m) * back);
+    if (lags[j] == 0.0 || arm(j) <= 0.0) continue;
+    closing[count++] = j;
+    squares += arm(j) * arm(j);
+  }
+  const auto raise = [&](std::size_t j, double back) {
+    depths[j] = std::max(depths[j], std::min(1.0, arm(j) / kShortArm_m) * back);
+  };
+  while (count > 0) {
+    const double multiplier = depth / squares;
+    std::size_t left = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t j = closing[i];
+      if (multiplier * arm(j) < std::abs(lags[j])) {
+        closing[left++] = j;
+        continue;
+      }
+      raise(j, std::abs(lags[j]));
+      depth -= arm(j) * std::abs(lags[j]);
+      squares -= arm(j) * arm(j);
+    }
+    if (left == count) {
+      for (std::size_t i = 0; i < count; ++i)
+        raise(closing[i], multiplier * arm(closing[i]));
+      return;
+    }
+    count = left;
   }
 }
 

@@ -33,17 +33,21 @@ struct FingerHand {
 /// render passively, i.e. without ever giving back more energy than the finger put in, it is b / (T/2 + t_d), with the
 /// joint's damping b, the period T of the loop, at least that of the device, and the delay t_d of device and link
 /// (`passive_stiffness`). A glove that does not tell its `joint_damping` is taken to have just as
-/// much as the full stiffness needs without a link. Real-time safe.
+/// much as the full stiffness needs without a link. A torque that may change by r Nm/s (`devices::joint_torque_rate`)
+/// lags behind a finger that taps quickly, and would feed its rattling: so the stiffness is at most r / (6 rad/s).
+/// Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 
-/// How far (rad) each joint would have to go back, alone, to leave a contact, but never farther than to the visible
-/// hand: raises `depths` to it. `lags`, rad, are from the visible hand to the glove. Real-time safe.
+/// How far (rad) the joints whose lag closes the gap of a contact have to go back to leave it, by the least squares,
+/// and none farther than to the visible hand: raises `depths` to it. `lags`, rad, are from the visible hand to the
+/// glove. The torques of these depths are the gradient of a convex energy in the closing joints, and no stiffer than
+/// each joint alone: joints that share a contact do not add up. Real-time safe: O(joints²) at worst.
 void deepen(const FingerRow& row, const devices::JointValues& lags, devices::JointValues& depths) noexcept;
 
-/// Torques for the joints of a glove whose hand clasps something. A joint is pushed back by the spring if its own
-/// motion, from the visible hand's posture to the glove's, goes deeper into a contact: as far as this motion is to
-/// blame for the depth of that contact. All other joints get exactly zero; so do all while nothing touches.
+/// Torques for the joints of a glove whose hand clasps something. The joints whose own motion, from the visible hand's
+/// posture to the glove's, goes deeper into a contact are pushed back by springs, as far as they together have to go to
+/// leave it (`deepen`). All other joints get exactly zero; so do all while nothing touches.
 ///
 /// The torque is continuous in the posture of the glove, and comes and goes with the depth. Contacts that push less
 /// than 2 mm beside a joint's axis count less, down to nothing. The wearer's fingers rest where their muscles balance

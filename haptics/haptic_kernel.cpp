@@ -90,14 +90,18 @@ struct HapticKernel::Hand {
 
   /// Adapts the present coupling to the delay of the link and to the distance of the part's reference point. Returns
   /// the share of the coupling's force that is left: force and torque shrink alike, so that the wrench stays a sum of
-  /// contact normals.
+  /// contact normals. It applies to what is wanted from now on: a force that is there falls from where it is.
   double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
                 double distance, bool is_new, double dt) noexcept {
     constexpr double kTime_s = 0.1;
     constexpr double kMost_s = 1.0;
+    constexpr double kFarthest_m = 10.0;
     const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
     link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
-    if (std::isfinite(distance)) lever_m += (is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (distance - lever_m);
+    if (std::isfinite(distance)) {
+      const double lever = std::min(distance, kFarthest_m);  // a state that is wrong for a moment is soon forgotten
+      lever_m += (is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (lever - lever_m);
+    }
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
     present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay, lever_m);
@@ -312,27 +316,25 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   if (tick.part) {
     hand.contacts.hold(lever, coupling.stiffness);
     contacts = contacts_->of_part(p);
-    contacts.wrench = holds_->on_hand(number, contacts.wrench);
+    contacts.wrench = scaled(holds_->on_hand(number, contacts.wrench), softness);
     motion = holds_->ghost_motion(p, lever);
     tick.pull = scaled(holds_->pull_on(number), softness);
     const double pull = tick.pull.f.norm();
     const double most = kHeadroom * hand.envelope.descriptor().max_force;
     if (pull > most) tick.pull = scaled(tick.pull, most / pull);
   }
-  tick.contacts = scaled(hand.contacts.update(contacts, age, motion, dt), softness);
+  tick.contacts = hand.contacts.update(contacts, age, motion, dt);
   tick.contact_share = hand.contacts.share();
   tick.is_unsolved = contacts.is_unsolved;
   if (!contacts.is_unsolved) {
-    hand.solved = {tick.contacts.f + softness * hand.contacts.withheld().f,
-                   tick.contacts.t + softness * hand.contacts.withheld().t};
+    hand.solved = {tick.contacts.f + hand.contacts.withheld().f, tick.contacts.t + hand.contacts.withheld().t};
   }
   if (hand.solved.f.isZero(0.0) && hand.solved.t.isZero(0.0)) hand.owed = 0.0;
   const double against_exerted = holds_->work_against(number, tick.contacts);
   // Without a solution, what the contacts exerted before stands for what they would exert.
-  const double against_withheld = contacts.is_unsolved
-                                      ? holds_->work_against(number, hand.solved) - against_exerted
-                                      : holds_->work_against(number, scaled(hand.contacts.withheld(), softness));
-  const double share = share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number);
+  const double against_withheld = contacts.is_unsolved ? holds_->work_against(number, hand.solved) - against_exerted
+                                                       : holds_->work_against(number, hand.contacts.withheld());
+  const double share = softness * share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number);
   // The pull of the last tick acted on this way.
   const double of_pull = -holds_->work_against(number, std::exchange(hand.pull, tick.pull));
   const double lifted = hand.lift(against_withheld, against_exerted, dt);
@@ -354,8 +356,11 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
     command.t_H_W = on_hand.t;
   }
   if (hand.fingers) {
-    const contact::Wrench load{tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t};
-    command.joint_torques = hand.fingers->torques(state, set.hands[number], age, tick.part, load, p_Wref, lever, dt);
+    const FingerLoad::Load load{tick.part ? static_cast<std::int32_t>(p) : -1,
+                                {tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t},
+                                p_Wref,
+                                lever};
+    command.joint_torques = hand.fingers->torques(state, set.hands[number], age, load, dt);
   }
   tick.command = hand.envelope.limit(command, state, now);
   hand.is_fading = tick.command.reasons().is_fading();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glissade/devices/safety_envelope.h>
 
@@ -20,6 +21,7 @@ constexpr double kJumpTolerance_m = 1e-3;
 constexpr double kTurnTolerance = 1e-2;  // rad
 constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
 constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
+constexpr double kMostDebt_J = 0.5;
 constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
@@ -43,12 +45,21 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   if (!is_new) return;
   const bool plausible = is_plausible(state);
   if (!plausible) distrust_until_ = now + kDistrust;
+  const bool catches_up = !plausible && may_have_gone_to(state);
   update_offset(state, now);
   const nanoseconds measured = state.time + offset_;
-  // Where the clock does not go on, the way counts once it does.
-  const bool goes_on = has_state_ && plausible && state.time >= booked_.time;
-  if (goes_on && measured > booked_at_) observe_work(state, booked_at_, measured);
-  if (!goes_on || measured > booked_at_) {
+  // Where the clock does not go on, the way counts once it does; and that of a hand whose pose stood still for a while
+  // counts once its states are plausible again.
+  const bool goes_on = has_state_ && (plausible || catches_up) && state.time >= booked_.time;
+  const bool counts = goes_on && plausible && measured > booked_at_;
+  if (counts) {
+    const double before = energy_;
+    observe_work(state, booked_at_, measured);
+    // It may have been an error of the tracker, for which the hand shall not wait for its force for long.
+    if (std::exchange(has_caught_up_, false)) energy_ = std::max(energy_, std::min(before, -kMostDebt_J));
+  }
+  has_caught_up_ = has_caught_up_ || catches_up;
+  if (!goes_on || counts) {
     booked_ = state;
     booked_at_ = measured;
   }
@@ -74,6 +85,13 @@ bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
   if (turned > descriptor_.max_turn_rate * dt + kTurnTolerance) return false;
   const Eigen::Vector3d unexplained = moved - 0.5 * dt * (state.v_WH + state_.v_WH);
   return unexplained.norm() <= kSpeedMismatch * descriptor_.max_speed * dt + kJumpTolerance_m;
+}
+
+/// Whether the hand may have gone to this pose since the last one that was not the same to the bit.
+bool SafetyEnvelope::may_have_gone_to(const GloveState& state) const noexcept {
+  if (!has_state_ || state.time < state_.time) return false;
+  const double way = (state.X_WH.translation() - state_.X_WH.translation()).norm();
+  return way <= descriptor_.max_speed * in_seconds(state.time - pose_time_) + kJumpTolerance_m;
 }
 
 void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {

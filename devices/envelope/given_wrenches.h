@@ -15,11 +15,13 @@ namespace glissade::devices {
 /// longer than `longest`: a device without commands exerts nothing. Not thread-safe. Real-time safe after construction.
 class GivenWrenches {
  public:
-  /// Has room for as many as `give` can take in these times, ten in a millisecond.
-  GivenWrenches(std::chrono::nanoseconds delay, std::chrono::nanoseconds longest)
+  /// Has room for as many as `give` can take in these times, one each `period` and ten in a millisecond.
+  GivenWrenches(std::chrono::nanoseconds delay, std::chrono::nanoseconds longest,
+                std::chrono::nanoseconds period = std::chrono::microseconds(100))
       : delay_(delay),
         longest_(longest),
-        wrenches_(64 + static_cast<std::size_t>((delay + longest) / std::chrono::microseconds(100))) {}
+        wrenches_(64 + static_cast<std::size_t>((delay + longest) / std::min<std::chrono::nanoseconds>(
+                                                                        period, std::chrono::microseconds(100)))) {}
 
   /// At `now` the device gets force (N) and torque (Nm). A time before the last one counts as that.
   void give(std::chrono::nanoseconds now, const Eigen::Vector3d& f, const Eigen::Vector3d& t) noexcept {

@@ -39,6 +39,7 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
                                double dt) noexcept {
   for (std::size_t p = 0; p < part_count_; ++p) {
     contacts_[p] = {};
+    friction_[p] = {};
     island_[p] = p;
     acts_[p] = parts[p].acts;
     wanted_[p] = {};
@@ -138,6 +139,30 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
     const auto active = static_cast<std::size_t>(projection.active[static_cast<std::size_t>(i)]);
     add_push(active, projection.force[static_cast<std::size_t>(i)], projection);
   }
+  add_friction({stiffness.data(), count}, projection);
+}
+
+/// Friction holds the parts back on the way that the contacts leave them, at most where they are.
+void ContactProjection::add_friction(std::span<const contact::CouplingStiffness> stiffness,
+                                     const contact::CoupledProjection& projection) noexcept {
+  double against_way = 0.0;
+  double of_springs = 0.0;
+  const auto each = [&](const auto& take) {
+    for (std::size_t p = 0; p < part_count_; ++p) {
+      const auto in_island = static_cast<std::size_t>(local_[p]);
+      if (local_[p] >= 0) take(p, projection.displacements[in_island], stiffness[in_island]);
+    }
+  };
+  each([&](std::size_t p, const geometry::Displacement& way, const contact::CouplingStiffness& K) {
+    against_way -= friction_[p].f.dot(way.v) + friction_[p].t.dot(way.w);
+    of_springs += K.translational * way.v.squaredNorm() + K.rotational * way.w.squaredNorm();
+  });
+  if (against_way <= 0.0 || of_springs <= 0.0) return;
+  const double share = std::min(1.0, against_way / of_springs);
+  each([&](std::size_t p, const geometry::Displacement& way, const contact::CouplingStiffness& K) {
+    contacts_[p].wrench.f -= share * K.translational * way.v;
+    contacts_[p].wrench.t -= share * K.rotational * way.w;
+  });
 }
 
 /// Notes the way since the last call. A way that no hand can make is none: the part was taken elsewhere.
@@ -163,22 +188,26 @@ void ContactProjection::add_push(std::size_t row_number, double push,
     const geometry::Displacement& way = way_[static_cast<std::size_t>(part)];
     return row.n.dot(way.v + way.w.cross(r));
   };
-  const auto add = [&](std::int32_t part, const Eigen::Vector3d& r, const Eigen::Vector3d& f, double from_hands) {
+  const auto add = [&](std::int32_t part, const Eigen::Vector3d& r, const Eigen::Vector3d& f,
+                       const Eigen::Vector3d& friction, double from_hands) {
     const auto p = static_cast<std::size_t>(part);
     contacts_[p].wrench.f += f;
     contacts_[p].wrench.t += r.cross(f);
+    friction_[p].f += friction;
+    friction_[p].t += r.cross(friction);
     contacts_[p].from_hands += from_hands;
     pushes_[p] += push;
     known_pushes_[p] += known;
   };
-  const Eigen::Vector3d f = push * (row.n + row.friction_ratio_W);
+  const Eigen::Vector3d f = push * row.n;
+  const Eigen::Vector3d friction = push * row.friction_ratio_W;
   const bool is_coupled = acts(row.part) && acts(row.other);
   if (acts(row.part)) {
-    add(row.part, row.r, f, is_coupled ? push * way_of(row.other, row.r_other) : 0.0);
+    add(row.part, row.r, f, friction, is_coupled ? push * way_of(row.other, row.r_other) : 0.0);
     if (!is_coupled)
       contacts_[static_cast<std::size_t>(row.part)].from_movers += push * rows_[numbers_[row_number]].way;
   }
-  if (acts(row.other)) add(row.other, row.r_other, -f, is_coupled ? -push * way_of(row.part, row.r) : 0.0);
+  if (acts(row.other)) add(row.other, row.r_other, -f, -friction, is_coupled ? -push * way_of(row.part, row.r) : 0.0);
 }
 
 }  // namespace glissade::haptics

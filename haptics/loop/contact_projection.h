@@ -39,7 +39,11 @@ struct PartContacts {
 };
 
 /// The wanted displacements of the parts are projected on the rows of the set, those of parts in contact with each
-/// other together. The force is the sum of the multipliers times the normals, with the friction that belongs to them.
+/// other together. The force is the sum of the multipliers times the normals, and friction. The friction of the rows
+/// was found for the lag of that time. Now it is a share of the spring's force on the way that the contacts leave the
+/// parts (all of it: they stick), which takes as much energy on this way as the friction of the rows would. So it never
+/// drives a part, and holds it back no farther than where it is.
+///
 /// Rows that did not push count no more once the ghost has left their `range`. The plane of one that pushed goes on;
 /// its force fades where the projection is more than 3 mm beyond the range, and is zero from 9 mm on. Bodies that move
 /// without a hand go on at their speed for kFullForce. So the force never holds a hand back along a frictionless
@@ -63,6 +67,8 @@ class ContactProjection {
   void solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept;
   void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, const Eigen::Vector3d& p_Vref, double dt) noexcept;
   void add_push(std::size_t row_number, double push, const contact::CoupledProjection& projection) noexcept;
+  void add_friction(std::span<const contact::CouplingStiffness> stiffness,
+                    const contact::CoupledProjection& projection) noexcept;
 
   struct ActiveRow {
     contact::CoupledRow row;  // as it is now; the numbers of parts are those in the scene
@@ -84,6 +90,7 @@ class ContactProjection {
   std::array<geometry::Displacement, contact::kMaxParts> moved_{};
   std::array<std::optional<Eigen::Isometry3d>, contact::kMaxParts> X_WP_{};  // where the last projection put each part
   std::array<geometry::Displacement, contact::kMaxParts> way_{};  // from there to where the present one puts it
+  std::array<contact::Wrench, contact::kMaxParts> friction_{};    // of the active rows, if all of it acted
   std::array<double, contact::kMaxParts> pushes_{};               // N, sums over the rows of each part
   std::array<double, contact::kMaxParts> known_pushes_{};
   std::array<PartContacts, contact::kMaxParts> contacts_{};

@@ -1,9 +1,11 @@
 #include "loop/finger_load.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include <glissade/contact/spring.h>
+#include <glissade/haptics/finger_forces.h>
 
 namespace glissade::haptics {
 namespace {
@@ -11,53 +13,55 @@ namespace {
 constexpr int kSweeps = 20;
 constexpr double kSmallForces = 0.05;  // against forces that cancel each other
 constexpr double kFollows_s = 30e-3;
+constexpr double kFades_s = 5e-3;
 constexpr double kMostEnergy_J = 40e-3;
+constexpr double kFades_J = 10e-3;  // below which the torques fade
 constexpr double kMostShare = 0.5;  // of the largest torque of a joint
-// The glove's segment may be so far off the part: up to kFull_m the load is full, from kNone_m on it is zero. In
-// between it acts as a spring, weaker than those of the fingers (kMostShare · max_joint_torque over 1 mm, by the arm).
+// The glove's segment may be so far off the part: up to kFull_m the load is full, from kNone_m on it is zero.
 constexpr double kFull_m = 0.2e-3;
 constexpr double kNone_m = 1.2e-3;
 constexpr double kRefill_W = 1e-3;
+constexpr double kFastest_rad_per_s = 30.0;  // a finger; faster is an error of its sensor
 
 }  // namespace
 
 FingerLoad::FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part)
-    : max_torque_(device.max_joint_torque) {
+    : max_torque_(device.max_joint_torque),
+      stiffness_(finger_stiffness(device, kTickPeriod, std::chrono::nanoseconds(0))),
+      given_(kGiven) {
   for (std::size_t j = 0; j < bears_.size(); ++j)
     bears_[j] = device.joint_lower[j] != 0.0 || device.joint_upper[j] != 0.0;
   for (const std::size_t j : moves_part)
     bears_[j] = false;
 }
 
-const devices::JointValues& FingerLoad::update(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load,
-                                               const Eigen::Vector3d& p_Wref, double radius,
-                                               const devices::JointValues& angles, double dt) noexcept {
+const devices::JointValues& FingerLoad::update(const HandAnswer& hand, const Load& load,
+                                               const devices::JointValues& springs, const devices::JointValues& angles,
+                                               double dt) noexcept {
   count_energy(angles, dt);
-  wanted_.fill(0.0);
-  const bool is_loaded = has_angles_ && part >= 0 && radius > 0.0 && !(load.f.isZero(0.0) && load.t.isZero(0.0));
-  if (is_loaded) share(hand, part, load, p_Wref, radius, angles);
-  const double left = std::clamp(energy_ / kStart_J, 0.0, 1.0);
-  const double step = max_torque_ * dt / kFollows_s;
-  for (std::size_t j = 0; j < torques_.size(); ++j) {
-    const double most = bears_[j] ? left * kMostShare * max_torque_ : 0.0;
-    torques_[j] += std::clamp(std::clamp(wanted_[j], -most, most) - torques_[j], -step, step);
-    torques_[j] = std::clamp(torques_[j], -most, most);
-  }
+  forces_.fill(0.0);
+  const bool is_loaded =
+      has_angles_ && load.part >= 0 && load.radius > 0.0 && !(load.wrench.f.isZero(0.0) && load.wrench.t.isZero(0.0));
+  if (is_loaded) share(hand, load);
+  follow(hand, angles, dt);
+  const double left = std::clamp(energy_ / kFades_J, 0.0, 1.0);
+  for (std::size_t j = 0; j < torques_.size(); ++j)
+    torques_[j] = std::clamp(left * fading_[j] * borne_[j], -max_torque_ - springs[j], max_torque_ - springs[j]);
+  newest_ = (newest_ + 1) % kGiven;
+  given_[newest_] = torques_;
   return torques_;
 }
 
 /// By projected Gauss–Seidel sweeps from zero.
-void FingerLoad::share(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load,
-                       const Eigen::Vector3d& p_Wref, double radius, const devices::JointValues& angles) noexcept {
-  forces_.fill(0.0);
+void FingerLoad::share(const HandAnswer& hand, const Load& load) noexcept {
   const std::span<const FingerRow> rows = hand.rows();
   Vector6 left;
-  left << load.f, load.t / radius;
+  left << load.wrench.f, load.wrench.t / load.radius;
   for (std::size_t i = 0; i < rows.size(); ++i)
-    directions_[i] << rows[i].n_W, (rows[i].p_W - p_Wref).cross(rows[i].n_W) / radius;
+    directions_[i] << rows[i].n_W, (rows[i].p_W - load.p_Wref).cross(rows[i].n_W) / load.radius;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      if (rows[i].part != part) continue;
+      if (rows[i].part != load.part) continue;
       const Vector6& d = directions_[i];
       const double square = d.squaredNorm();
       const double force = std::max(0.0, (d.dot(left) + square * forces_[i]) / (square + kSmallForces));
@@ -65,25 +69,52 @@ void FingerLoad::share(const HandAnswer& hand, std::int32_t part, const contact:
       forces_[i] = force;
     }
   }
+}
+
+/// What the forces demand of the joints, within the limits, and which share of it where the glove's segments are.
+void FingerLoad::follow(const HandAnswer& hand, const devices::JointValues& angles, double dt) noexcept {
+  const std::span<const FingerRow> rows = hand.rows();
+  devices::JointValues whole{};
+  devices::JointValues present{};
+  devices::JointValues longest_arm_m{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (forces_[i] == 0.0) continue;
     double gap = rows[i].gap;
     for (std::size_t j = 0; j < angles.size(); ++j)
       gap += rows[i].rates[j] * (angles[j] - hand.visible.angles[j]);
     const double force = forces_[i] * std::clamp((kNone_m - gap) / (kNone_m - kFull_m), 0.0, 1.0);
-    for (std::size_t j = 0; j < wanted_.size(); ++j)
-      wanted_[j] += force * rows[i].rates[j];
+    for (std::size_t j = 0; j < whole.size(); ++j) {
+      whole[j] += forces_[i] * rows[i].rates[j];
+      present[j] += force * rows[i].rates[j];
+      longest_arm_m[j] = std::max(longest_arm_m[j], std::abs(rows[i].rates[j]));
+    }
+  }
+  const double step = max_torque_ * dt / kFollows_s;
+  for (std::size_t j = 0; j < whole.size(); ++j) {
+    double wanted = 0.0;
+    if (whole[j] != 0.0 && bears_[j]) {
+      // Where the load fades it is a spring: this torque over a millimetre, by the arm.
+      const double most_passive = stiffness_ * (kNone_m - kFull_m) / longest_arm_m[j];
+      const double most = std::min(kMostShare * max_torque_, most_passive);
+      wanted = std::clamp(whole[j], -most, most);
+      const double share = std::clamp(present[j] / whole[j], 0.0, 1.0);
+      const double step_of_share = borne_[j] == 0.0 ? 1.0 : dt / kFades_s;
+      fading_[j] += std::clamp(share - fading_[j], -step_of_share, step_of_share);
+    }
+    borne_[j] += std::clamp(wanted - borne_[j], -step, step);
   }
 }
 
-/// Of the torques since the last call.
+/// Since the last call, of the torques that acted then.
 void FingerLoad::count_energy(const devices::JointValues& angles, double dt) noexcept {
   const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
   if (has_angles_ && is_finite) {
+    const double ticks = dt > 0.0 ? std::min(std::round(delay_s_ / dt), static_cast<double>(kGiven - 1)) : 0.0;
+    const devices::JointValues& acted = given_[(newest_ + kGiven - static_cast<std::size_t>(ticks)) % kGiven];
     for (std::size_t j = 0; j < angles.size(); ++j)
-      energy_ -= torques_[j] * (angles[j] - last_angles_[j]);
+      energy_ -= acted[j] * std::clamp(angles[j] - last_angles_[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt);
   }
-  energy_ = std::min(energy_ + kRefill_W * dt, kMostEnergy_J);
+  energy_ = std::clamp(energy_ + kRefill_W * dt, -kStart_J, kMostEnergy_J);
   has_angles_ = is_finite;
   if (is_finite) last_angles_ = angles;
 }

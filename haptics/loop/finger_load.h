@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -21,11 +22,15 @@ namespace glissade::haptics {
 /// taken that come nearest to the load together and are small. A finger on the side to which a wall presses the part
 /// feels it; what no contact can carry, no finger feels.
 ///
-/// The torques follow the load within 30 ms, and are exactly zero after that where there is no load or no contact.
+/// The torques follow the load within 30 ms, and the finger at once. They are exactly zero where there is no load or no
+/// contact for so long.
 /// They may open a finger, but not take it off the part: they fade as the glove's segment leaves, and are zero 1.2 mm
-/// off. At most half of the device's largest torque. They do not depend on posture alone, so their energy is counted.
-/// The account begins with 20 mJ. It grows by what the fingers put in, and by 1 mW, to 40 mJ at most, and pays for what
-/// the torques give. The torques fade before it is empty.
+/// off. There they act as a spring, which must be passive too: behind a link, a joint bears no more than what makes
+/// this spring as stiff as the finger's own (`finger_stiffness`). At most half of the device's largest torque.
+///
+/// The torques do not depend on posture alone, so their energy is counted. The account begins with 20 mJ. It grows by
+/// what the fingers put in, and by 1 mW, to 40 mJ at most, and pays for what the torques give. The torques fade before
+/// it is empty. A motion that is seen was made under the torques that the device had then.
 ///
 /// Real-time safe: bounded work, no allocation. Not thread-safe.
 class FingerLoad {
@@ -34,12 +39,26 @@ class FingerLoad {
   /// they would. They get no torque, nor do those that the device does not have.
   FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part);
 
-  /// The torques (Nm, positive toward larger angles) `dt` (seconds) after the last call. The load is the wrench on the
-  /// hand about the world point `p_Wref`; the part has the number `part`, and no point of it is farther from there than
-  /// `radius` (metres); −1: the hand holds none. `angles` are those of the glove (rad).
-  const devices::JointValues& update(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load,
-                                     const Eigen::Vector3d& p_Wref, double radius, const devices::JointValues& angles,
-                                     double dt) noexcept;
+  /// What acts on a hand. The load is the wrench on it about the world point `p_Wref`; the part has the number `part`,
+  /// and no point of it is farther from there than `radius` (metres); −1: the hand holds none.
+  struct Load {
+    std::int32_t part = -1;
+    contact::Wrench wrench;
+    Eigen::Vector3d p_Wref = Eigen::Vector3d::Zero();
+    double radius = 0.0;
+  };
+
+  /// From now on the torques come `delay` (seconds) after the motion that they answer, and a joint's spring may be as
+  /// stiff as `stiffness` (Nm/rad).
+  void set_link(double delay, double stiffness) noexcept {
+    delay_s_ = delay;
+    stiffness_ = stiffness;
+  }
+
+  /// The torques (Nm, positive toward larger angles) `dt` (seconds) after the last call, beside the torques of the
+  /// `springs`: the sum stays within the device's limits. `angles` are those of the glove (rad).
+  const devices::JointValues& update(const HandAnswer& hand, const Load& load, const devices::JointValues& springs,
+                                     const devices::JointValues& angles, double dt) noexcept;
 
   /// J: what the torques may still give.
   double energy() const noexcept { return energy_; }
@@ -47,18 +66,24 @@ class FingerLoad {
  private:
   using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-  void share(const HandAnswer& hand, std::int32_t part, const contact::Wrench& load, const Eigen::Vector3d& p_Wref,
-             double radius, const devices::JointValues& angles) noexcept;
+  void share(const HandAnswer& hand, const Load& load) noexcept;
+  void follow(const HandAnswer& hand, const devices::JointValues& angles, double dt) noexcept;
   void count_energy(const devices::JointValues& angles, double dt) noexcept;
 
   static constexpr double kStart_J = 20e-3;
+  static constexpr std::size_t kGiven = 1024;  // ticks: more than the delays of links take, even at 5 kHz
 
-  double max_torque_;                               // Nm
+  double max_torque_;  // Nm
+  double stiffness_;
+  double delay_s_ = 0.0;
   std::array<bool, devices::kGloveJoints> bears_;   // a load
   std::array<Vector6, kMaxFingerRows> directions_;  // of the forces: force, and torque by the radius
   std::array<double, kMaxFingerRows> forces_{};     // N
-  devices::JointValues wanted_{};
+  devices::JointValues borne_{};                    // Nm: on segments that are on the part
+  devices::JointValues fading_{};                   // share that is left of it where they leave
   devices::JointValues torques_{};
+  std::vector<devices::JointValues> given_;  // a ring: the torques of the last ticks
+  std::size_t newest_ = 0;
   devices::JointValues last_angles_{};
   bool has_angles_ = false;
   double energy_ = kStart_J;

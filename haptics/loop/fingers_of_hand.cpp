@@ -31,7 +31,12 @@ std::vector<std::size_t> joints_of_wrist(const FingerHand& hand) {
 
 FingersOfHand::FingersOfHand(const FingerHand& hand, const devices::DeviceDescriptor& device,
                              std::chrono::nanoseconds period)
-    : hand_(checked_wrist(hand)), forces_(hand.limits, device, period), load_(device, joints_of_wrist(hand)) {}
+    : hand_(checked_wrist(hand)),
+      forces_(hand.limits, device, period),
+      load_(device, joints_of_wrist(hand)),
+      device_delay_(device.delay) {
+  set_link_delay(std::chrono::nanoseconds(0));
+}
 
 bool FingersOfHand::have_angles(const devices::GloveState& state) noexcept {
   return std::all_of(state.joint_angles.begin(), state.joint_angles.end(),
@@ -56,15 +61,18 @@ bool FingersOfHand::is_new(std::int64_t decision) noexcept {
   return std::exchange(decision_, decision) != decision;
 }
 
+void FingersOfHand::set_link_delay(std::chrono::nanoseconds delay) noexcept {
+  forces_.set_link_delay(delay);
+  load_.set_link(std::chrono::duration<double>(device_delay_ + delay).count(), forces_.stiffness());
+}
+
 devices::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,
-                                            std::chrono::nanoseconds age, std::optional<std::size_t> held,
-                                            const contact::Wrench& on_hand, const Eigen::Vector3d& p_Wref,
-                                            double radius, double dt) noexcept {
-  const std::int32_t number = held ? static_cast<std::int32_t>(*held) : -1;
+                                            std::chrono::nanoseconds age, const FingerLoad::Load& load,
+                                            double dt) noexcept {
   devices::JointValues sum = forces_.update(state.joint_angles, answer, age);
-  const devices::JointValues& of_load = load_.update(answer, number, on_hand, p_Wref, radius, state.joint_angles, dt);
+  const devices::JointValues& of_load = load_.update(answer, load, sum, state.joint_angles, dt);
   for (std::size_t j = 0; j < sum.size(); ++j)
-    sum[j] = std::clamp(sum[j] + of_load[j], -forces_.max_torque(), forces_.max_torque());
+    sum[j] += of_load[j];
   return sum;
 }
 

@@ -35,12 +35,10 @@ class FingersOfHand {
   /// Whether this decision (`HandAnswer::decision`) is another than in the last call.
   bool is_new(std::int64_t decision) noexcept;
 
-  void set_link_delay(std::chrono::nanoseconds delay) noexcept { forces_.set_link_delay(delay); }
-  /// Torques (Nm) of the springs at the joints, and of the load `on_hand` (about the world point `p_Wref`) of the part
-  /// with the number `held`, no point of which is farther from there than `radius` (metres).
+  void set_link_delay(std::chrono::nanoseconds delay) noexcept;
+  /// Torques (Nm) of the springs at the joints, and of the load of the held part.
   devices::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
-                               std::optional<std::size_t> held, const contact::Wrench& on_hand,
-                               const Eigen::Vector3d& p_Wref, double radius, double dt) noexcept;
+                               const FingerLoad::Load& load, double dt) noexcept;
 
   /// Notes the newest state if it can be trusted, or null, and the part that the hand holds.
   void note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept;
@@ -51,6 +49,7 @@ class FingersOfHand {
   FingerHand hand_;
   FingerForces forces_;
   FingerLoad load_;
+  std::chrono::nanoseconds device_delay_;
   devices::JointValues angles_{};  // of the wrist, as the ghost has them
   bool is_found_ = false;          // the angles are those of a state
   std::int64_t decision_ = 0;

@@ -65,6 +65,14 @@ TEST(GivenWrenches, AreRememberedForADelayHoweverLong) {
   EXPECT_NEAR(work_until_100(given), 1.0 * 0.05 + 2.0 * 0.05, 1e-12);
 }
 
+TEST(GivenWrenches, OfADeviceWithManyPeriodsInAMillisecondAreAllRemembered) {
+  constexpr std::chrono::microseconds kPeriod(20);
+  GivenWrenches given(milliseconds(50), milliseconds(50), kPeriod);
+  for (std::chrono::microseconds now(-50'000); now < milliseconds(50); now += kPeriod)
+    given.give(now, {1.0, 0.0, 0.0}, Vector3d::Zero());
+  EXPECT_NEAR(work_until_100(given), 0.1, 1e-12);
+}
+
 TEST(GivenWrenches, ALongSilenceDisplacesNoneOfThem) {
   GivenWrenches given(milliseconds(0), milliseconds(10));
   given.give(milliseconds(0), {1.0, 0.0, 0.0}, Vector3d::Zero());

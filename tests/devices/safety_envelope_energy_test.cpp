@@ -114,6 +114,42 @@ TEST_F(Envelope, CountsACommandNoLongerThanADeviceExertsItWithoutAnother) {
   EXPECT_GT(push_at(0.0, 1).energy(), before - 0.1) << "20 N on all of the way would be 2 J";
 }
 
+/// A tracker that repeats its last pose for 40 ms while the hand goes on.
+TEST_F(Envelope, CountsTheWayOfAHandWhosePoseStoodStillOnceItIsPlausibleAgain) {
+  push_at(0.0, 800);
+  push_at(-0.1, 200);
+  const double before = push_at(0.0, 40).energy();
+  state_.X_WH.translation().x() += 0.02;  // 20 mm in a millisecond
+  EXPECT_TRUE(push_at(0.0, 1).reasons().is_implausible);
+  EXPECT_NEAR(push_at(0.0, 1).energy(), before - 20.0 * 0.02, 0.1);
+}
+
+TEST_F(Envelope, CountsNoWayThatNoHandCanMake) {
+  push_at(0.0, 800);
+  push_at(-0.1, 200);
+  const double before = push_at(0.0, 40).energy();
+  state_.X_WH.translation().x() += 2.0;  // the tracker was aligned anew
+  push_at(0.0, 1);
+  EXPECT_NEAR(push_at(0.0, 1).energy(), before, 0.1);
+}
+
+/// The device exerts half of each period what it was told in the one before.
+TEST_F(Envelope, AClockOfTheGloveThatIsSetFeedsNothing) {
+  DeviceDescriptor late = kDevice;
+  late.delay = std::chrono::microseconds(500);
+  envelope_ = SafetyEnvelope(late);
+  last_f_.setZero();
+  push_at(0.0, 800);
+  push_at(-0.1, 50);
+  const double before = push_at(-0.05, 1).energy();
+  now_ += milliseconds(1);
+  state_.time += std::chrono::hours(1);
+  ++state_.sequence;
+  GloveCommand wanted = pull(20.0);
+  wanted.state_time = state_.time;
+  EXPECT_NEAR(envelope_.limit(wanted, state_, now_).energy(), before, 0.01);
+}
+
 TEST_F(Envelope, ForgetsTheEnergyOfAContactThatHasEnded) {
   push_at(0.0, 800);
   EXPECT_GT(push_at(-0.1, 200).energy(), 0.4);

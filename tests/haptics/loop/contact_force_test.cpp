@@ -227,8 +227,19 @@ TEST(ContactForce, FrictionBelongsToItsNormalForce) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].friction_ratio_W = Vector3d(0.3, 0.0, 0.0);
-  const contact::Wrench wrench = settle(contacts, set, at(0.0, 0.0, -2e-3));
+  const contact::Wrench wrench = settle(contacts, set, at(-3e-3, 0.0, -2e-3));
   EXPECT_TRUE(wrench.f.isApprox(Vector3d(0.6, 0.0, 2.0), 1e-9));
+}
+
+// It was found for the lag of the set, and the ghost has moved since: a force that knew only its ratio would drive the
+// hand.
+TEST(ContactForce, FrictionHoldsBackAndNeverDrives) {
+  OneHandForce contacts = at_origin();
+  ContactSet set = floor_below(0.0);
+  set.row_array[0].friction_ratio_W = Vector3d(0.3, 0.0, 0.0);
+  EXPECT_TRUE(settle(contacts, set, at(-0.1e-3, 0.0, -2e-3)).f.isApprox(Vector3d(0.1, 0.0, 2.0), 1e-9))
+      << "no farther than where the part is";
+  EXPECT_TRUE(settle(contacts, set, at(1e-3, 0.0, -2e-3)).f.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9)) << "not beyond it";
 }
 
 TEST(ContactForce, AContactThatTheGhostHasLeftNoLongerActs) {

@@ -9,8 +9,10 @@
 #include <numbers>
 #include <random>
 
+#include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/finger_forces.h>
 
@@ -69,13 +71,14 @@ TEST(FingerForces, AreZeroWhileNothingTouches) {
   EXPECT_EQ(forces.update(angles(0.5, 0.3), touching({})), JointValues{});
 }
 
-TEST(FingerForces, PushBackEachJointThatPressesAndNoOther) {
+TEST(FingerForces, PushBackTheJointsThatPressAndNoOthers) {
   FingerForces forces = forces_of_simulated_glove();
   const double stiffness = forces.stiffness();
   const HandAnswer at_inner = touching({below(kInner, 0.03)});
   const HandAnswer at_outer = touching({below(kOuter, 0.08)});
   EXPECT_EQ(forces.update(angles(0.004, 0.006), at_inner), angles(-stiffness * 0.004, 0.0));
-  EXPECT_EQ(forces.update(angles(0.004, 0.006), at_outer), angles(-stiffness * 0.004, -stiffness * 0.006));
+  EXPECT_EQ(forces.update(angles(0.004, 0.006), at_outer), angles(-stiffness * 0.004, -stiffness * 0.006))
+      << "both have to go back all the way";
   EXPECT_EQ(forces.update(angles(-0.004, -0.006), at_outer), JointValues{}) << "a finger that opens";
   EXPECT_EQ(forces.update(angles(0.004, -0.012), at_outer), JointValues{}) << "80 mm by 4, less 30 by 12";
 }
@@ -87,6 +90,50 @@ TEST(FingerForces, PushBackAJointOnlyAsFarAsItIsToBlame) {
   const JointValues torques = forces.update(angles(0.009, -0.012), at_outer);
   EXPECT_NEAR(torques[0], -forces.stiffness() * 0.0045, 1e-12);
   EXPECT_EQ(torques[1], 0.0);
+}
+
+TEST(FingerForces, AreSharedByTheJointsThatCloseAGapTogether) {
+  FingerForces forces = forces_of_simulated_glove();
+  // 80 mm by 4 mrad and 30 mm by 6 mrad, less the gap: 0.2 mm deep. By the least squares, in the ratio of the arms.
+  const JointValues torques = forces.update(angles(0.004, 0.006), touching({below(kOuter, 0.08, 0.3e-3)}));
+  const double multiplier = 0.2e-3 / (0.08 * 0.08 + 0.03 * 0.03);
+  EXPECT_NEAR(torques[0], -forces.stiffness() * multiplier * 0.08, 1e-12);
+  EXPECT_NEAR(torques[1], -forces.stiffness() * multiplier * 0.03, 1e-12);
+}
+
+// Springs of several joints at one contact must not be stiffer together than one alone, or they feed an oscillation:
+// their matrix is symmetric, and its greatest eigenvalue that of one spring.
+TEST(FingerForces, OfAContactAreAGradientNoStiffer) {
+  constexpr std::uint64_t kSeed = 8;
+  std::mt19937_64 random(kSeed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int shared = 0;
+  for (int i = 0; i < 2'000; ++i) {
+    FingerRow row{.gap = 3e-3 * unit(random)};
+    JointValues lags{};
+    for (std::size_t j = 0; j < 3; ++j) {
+      row.rates[j] = -0.01 - 0.08 * unit(random);
+      lags[j] = 0.05 * unit(random);
+    }
+    const auto depths_at = [&](const JointValues& at) {
+      JointValues depths{};
+      deepen(row, at, depths);
+      return Eigen::Vector3d(depths[0], depths[1], depths[2]);
+    };
+    constexpr double kStep_rad = 1e-7;
+    Eigen::Matrix3d K;
+    for (std::size_t j = 0; j < 3; ++j) {
+      JointValues above = lags;
+      above[j] += kStep_rad;
+      K.col(static_cast<Eigen::Index>(j)) = (depths_at(above) - depths_at(lags)) / kStep_rad;
+    }
+    ASSERT_TRUE((K - K.transpose()).isZero(1e-5)) << "seed " << kSeed << ", " << i;
+    const Eigen::Vector3d eigenvalues = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(K).eigenvalues();
+    ASSERT_GE(eigenvalues[0], -1e-5) << "seed " << kSeed << ", " << i;
+    ASSERT_LE(eigenvalues[2], 1.0 + 1e-5) << "seed " << kSeed << ", " << i;
+    shared += K(0, 1) > 0.01 ? 1 : 0;
+  }
+  EXPECT_GT(shared, 500);
 }
 
 TEST(FingerForces, AreZeroUntilAGapIsClosed) {
@@ -250,6 +297,46 @@ TEST(FingerStiffness, GivesNoFingerMoreEnergyThanItPutIn) {
     for (int ms = 0; ms < 1000; ++ms)
       ASSERT_GE(finger.step(), -1e-6) << i << ", " << delay.count() << " ms of delay, after " << ms << " ms, seed "
                                       << kSeed;
+  }
+}
+
+// The envelope lets a torque change by so much a period; a spring that outran it would lag behind the finger, and feed
+// its rattling.
+TEST(FingerStiffness, LetsAFingerThatTapsComeToRest) {
+  const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  for (const double rate : {0.0, 20.0, 70.0}) {  // Nm/s; 0: that of the descriptor
+    for (const double inertia : {3e-5, 1e-4, 3e-4}) {
+      devices::DeviceDescriptor limited = device;
+      limited.max_joint_torque_rate = rate;
+      FingerForces forces(kRange, limited);
+      devices::SafetyEnvelope envelope(limited);
+      devices::GloveState state;
+      double angle = -0.2;
+      double speed = 10.0;
+      double torque = 0.0;
+      double least = 0.0;
+      double greatest = -limited.max_joint_torque;
+      for (int ms = 1; ms <= 3000; ++ms) {
+        for (int i = 0; i < 20; ++i) {
+          constexpr double kStep_s = 5e-5;
+          const double muscles = 0.3 - 0.5 * angle - 0.005 * speed;
+          speed = (speed + kStep_s / inertia * (muscles + torque)) / (1.0 + kStep_s / inertia * device.joint_damping);
+          angle += kStep_s * speed;
+        }
+        state.time = milliseconds(ms);
+        ++state.sequence;
+        state.joint_angles[0] = angle;
+        devices::GloveCommand command;
+        command.state_time = state.time;
+        command.joint_torques = forces.update(state.joint_angles, touching({below(kInner, 0.03)}));
+        torque = envelope.limit(command, state, state.time).values().joint_torques[0];
+        if (ms < 2000) continue;
+        least = std::min(least, torque);
+        greatest = std::max(greatest, torque);
+      }
+      EXPECT_LT(least, -0.2) << "it presses";
+      EXPECT_LT(greatest - least, 0.01) << "and rests: " << rate << " Nm/s, " << inertia << " kg m²";
+    }
   }
 }
 

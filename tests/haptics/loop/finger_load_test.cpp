@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <deque>
 #include <limits>
 #include <string>
 #include <utility>
@@ -47,7 +48,8 @@ HandAnswer pinch() {
 class LoadOnFingers : public ::testing::Test {
  protected:
   const JointValues& tick(const HandAnswer& hand, const Vector3d& f_W, std::int32_t part = kHeld) {
-    return load_.update(hand, part, {f_W, Vector3d::Zero()}, Vector3d::Zero(), kPartRadius_m, angles_, kFingerTick_s);
+    const FingerLoad::Load load{part, {f_W, Vector3d::Zero()}, Vector3d::Zero(), kPartRadius_m};
+    return load_.update(hand, load, springs_, angles_, kFingerTick_s);
   }
   JointValues settle(const HandAnswer& hand, const Vector3d& f_W, std::int32_t part = kHeld) {
     for (int ms = 0; ms < 31; ++ms)
@@ -57,6 +59,7 @@ class LoadOnFingers : public ::testing::Test {
 
   devices::DeviceDescriptor device_ = devices::simulated_glove_descriptor();
   FingerLoad load_{device_, kMovesPart};
+  JointValues springs_{};
   JointValues angles_{};
 };
 
@@ -85,7 +88,7 @@ TEST_F(LoadOnFingers, OfACoupleIsSharedByBothFingers) {
   const contact::Wrench couple{Vector3d::Zero(), 0.12 * Vector3d::UnitZ()};  // 2 N at each
   JointValues torques{};
   for (int ms = 0; ms < 32; ++ms)
-    torques = load_.update(hand, kHeld, couple, Vector3d::Zero(), kPartRadius_m, angles_, kFingerTick_s);
+    torques = load_.update(hand, {kHeld, couple, Vector3d::Zero(), kPartRadius_m}, springs_, angles_, kFingerTick_s);
   EXPECT_NEAR(torques[kThumb], -2.0 * kArm_m, 0.1 * 2.0 * kArm_m);
   EXPECT_NEAR(torques[kIndex], -2.0 * kArm_m, 0.1 * 2.0 * kArm_m);
 }
@@ -154,6 +157,43 @@ TEST_F(LoadOnFingers, NoRandomHandGetsMoreEnergyThanIsAllowed) {
     }
     ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 8e-3 * device_.max_joint_torque) << ms << " ms";
   }
+}
+
+// Where it fades, it is a spring over a millimetre, which must be as soft as the finger's own spring.
+TEST_F(LoadOnFingers, IsLessBehindALink) {
+  load_.set_link(20e-3, 1.0);
+  EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], -1.0 * 1e-3 / kArm_m, 1e-12);
+}
+
+/// Torques that act 10 ms late on a finger that goes to and fro, loaded on the way out only when it is seen.
+TEST_F(LoadOnFingers, BehindALinkGivesNoMoreEnergyThanItIsAllowed) {
+  constexpr std::size_t kDelay = 10;
+  load_.set_link(1e-3 * kDelay, 30.0);
+  std::deque<double> under_way(kDelay, 0.0);
+  double given_J = 0.0;
+  for (int ms = 0; ms < 20'000; ++ms) {
+    const bool will_open = (ms + static_cast<int>(kDelay)) / 50 % 2 == 0;
+    under_way.push_back(tick(pinch(), {will_open ? 3.0 : 0.0, 0.0, 0.0})[kIndex]);
+    const double moved = ms / 50 % 2 == 0 ? -2e-4 : 2e-4;
+    given_J += under_way.front() * moved;
+    under_way.pop_front();
+    angles_[kIndex] += moved;
+    ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 2e-3 * device_.max_joint_torque) << ms << " ms";
+  }
+  EXPECT_GT(given_J, 20e-3) << "it has been tried";
+}
+
+TEST_F(LoadOnFingers, AndTheSpringsStayWithinTheDevicesLimitTogether) {
+  springs_[kIndex] = -0.45;
+  EXPECT_NEAR(settle(pinch(), {100.0, 0.0, 0.0})[kIndex], -0.05, 1e-12);
+}
+
+TEST_F(LoadOnFingers, IsThereAgainSoonAfterAnAngleThatWasWrong) {
+  const double full = settle(pinch(), {3.0, 0.0, 0.0})[kIndex];
+  angles_[kIndex] = -6.0;
+  tick(pinch(), {3.0, 0.0, 0.0});
+  angles_[kIndex] = 0.0;
+  EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], full, 0.2 * std::abs(full));
 }
 
 TEST_F(LoadOnFingers, DoesNotSufferFromAnglesThatAreNone) {
