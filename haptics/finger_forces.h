@@ -41,8 +41,10 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
 
 /// How far (rad) the joints whose lag closes the gap of a contact have to go back to leave it, by the least squares,
 /// and none farther than to the visible hand: raises `depths` to it. `lags`, rad, are from the visible hand to the
-/// glove. The torques of these depths are the gradient of a convex energy in the closing joints, and no stiffer than
-/// each joint alone: joints that share a contact do not add up. Real-time safe: O(joints²) at worst.
+/// glove. The torques of the depths of one contact are the gradient of a convex energy in the closing joints, and no
+/// stiffer than each joint alone: joints that share a contact do not add up. (Less where an arm is shorter than 2 mm.
+/// Of several contacts a joint takes the greatest depth, so n joints may be stiffer by (1 + √n) / 2.) Real-time safe:
+/// O(joints²) at worst.
 void deepen(const FingerRow& row, const devices::JointValues& lags, devices::JointValues& depths) noexcept;
 
 /// Torques for the joints of a glove whose hand clasps something. The joints whose own motion, from the visible hand's

@@ -95,12 +95,13 @@ struct HapticKernel::Hand {
                 double distance, bool is_new, double dt) noexcept {
     constexpr double kTime_s = 0.1;
     constexpr double kMost_s = 1.0;
-    constexpr double kFarthest_m = 10.0;
+    constexpr double kFastest_m_per_s = 10.0;
     const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
     link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
     if (std::isfinite(distance)) {
-      const double lever = std::min(distance, kFarthest_m);  // a state that is wrong for a moment is soon forgotten
-      lever_m += (is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (lever - lever_m);
+      // A state that is wrong for a moment moves it little.
+      const double most = is_new ? distance + lever_m : kFastest_m_per_s * dt;
+      lever_m += std::clamp((is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (distance - lever_m), -most, most);
     }
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
@@ -314,7 +315,7 @@ HandTick HapticKernel::render(std::size_t number, const devices::GloveState& sta
   PartContacts contacts;
   double motion = 0.0;
   if (tick.part) {
-    hand.contacts.hold(lever, coupling.stiffness);
+    hand.contacts.hold(lever, {softness * coupling.stiffness.translational, softness * coupling.stiffness.rotational});
     contacts = contacts_->of_part(p);
     contacts.wrench = scaled(holds_->on_hand(number, contacts.wrench), softness);
     motion = holds_->ghost_motion(p, lever);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <glissade/devices/safety_envelope.h>
 
@@ -21,7 +20,8 @@ constexpr double kJumpTolerance_m = 1e-3;
 constexpr double kTurnTolerance = 1e-2;  // rad
 constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
 constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
-constexpr double kMostDebt_J = 0.5;
+constexpr double kMostDebt_J = 0.3;
+constexpr double kLongestRepeat_s = 0.1;
 constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
@@ -48,17 +48,17 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   const bool catches_up = !plausible && may_have_gone_to(state);
   update_offset(state, now);
   const nanoseconds measured = state.time + offset_;
-  // Where the clock does not go on, the way counts once it does; and that of a hand whose pose stood still for a while
-  // counts once its states are plausible again.
+  // Where the clock does not go on, the way counts once it does. After a jump that may be the way of a hand whose pose
+  // stood still for a while, it counts once the states are plausible again.
   const bool goes_on = has_state_ && (plausible || catches_up) && state.time >= booked_.time;
   const bool counts = goes_on && plausible && measured > booked_at_;
   if (counts) {
     const double before = energy_;
     observe_work(state, booked_at_, measured);
     // It may have been an error of the tracker, for which the hand shall not wait for its force for long.
-    if (std::exchange(has_caught_up_, false)) energy_ = std::max(energy_, std::min(before, -kMostDebt_J));
+    if (has_caught_up_) energy_ = std::clamp(energy_, std::min(before, -kMostDebt_J), before);
   }
-  has_caught_up_ = has_caught_up_ || catches_up;
+  has_caught_up_ = goes_on && !counts && (has_caught_up_ || catches_up);
   if (!goes_on || counts) {
     booked_ = state;
     booked_at_ = measured;
@@ -87,11 +87,12 @@ bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
   return unexplained.norm() <= kSpeedMismatch * descriptor_.max_speed * dt + kJumpTolerance_m;
 }
 
-/// Whether the hand may have gone to this pose since the last one that was not the same to the bit.
+/// Whether the hand may have gone to this pose while the last one repeated to the bit, of which 0.1 s counts.
 bool SafetyEnvelope::may_have_gone_to(const GloveState& state) const noexcept {
   if (!has_state_ || state.time < state_.time) return false;
   const double way = (state.X_WH.translation() - state_.X_WH.translation()).norm();
-  return way <= descriptor_.max_speed * in_seconds(state.time - pose_time_) + kJumpTolerance_m;
+  const double seconds = std::min(in_seconds(state.time - pose_time_), kLongestRepeat_s);
+  return way <= descriptor_.max_speed * seconds + kJumpTolerance_m;
 }
 
 void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {

@@ -57,7 +57,7 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
 /// both poses with both velocities: where states stay away, the force is gone after a few periods of a long way. How
 /// the hand really went there is not known, so it has put in nothing.
 void SafetyEnvelope::observe_work(const GloveState& state, nanoseconds begin, nanoseconds end) noexcept {
-  // The glove's clock may have been set, and the caller's counts ages.
+  // The glove's clock may have been set: the caller's time is the upper bound.
   const double seconds = std::min(in_seconds(state.time - booked_.time), in_seconds(end - begin));
   const auto curve = [seconds](const Eigen::Vector3d& way, const Eigen::Vector3d& v_begin,
                                const Eigen::Vector3d& v_end) {

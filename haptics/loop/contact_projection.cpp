@@ -40,6 +40,7 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
   for (std::size_t p = 0; p < part_count_; ++p) {
     contacts_[p] = {};
     friction_[p] = {};
+    rubbing_[p] = 0.0;
     island_[p] = p;
     acts_[p] = parts[p].acts;
     wanted_[p] = {};
@@ -142,26 +143,36 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
   add_friction({stiffness.data(), count}, projection);
 }
 
-/// Friction holds the parts back on the way that the contacts leave them, at most where they are.
+/// Friction holds the parts that it rubs back on the way that the contacts leave them, as a share of the force that
+/// their springs exert on this way. It takes no more energy on this way than the friction of the rows would, and is on
+/// no part greater than this friction. Another direction, such as that of the rows, would make the hand go round.
 void ContactProjection::add_friction(std::span<const contact::CouplingStiffness> stiffness,
                                      const contact::CoupledProjection& projection) noexcept {
   double against_way = 0.0;
   double of_springs = 0.0;
+  double share = 1.0;
   const auto each = [&](const auto& take) {
     for (std::size_t p = 0; p < part_count_; ++p) {
+      if (local_[p] < 0 || rubbing_[p] == 0.0) continue;
       const auto in_island = static_cast<std::size_t>(local_[p]);
-      if (local_[p] >= 0) take(p, projection.displacements[in_island], stiffness[in_island]);
+      geometry::Displacement way = projection.displacements[in_island];
+      // Parts that press on each other give way together, and that is no way along their contacts.
+      const Eigen::Vector3d push = contacts_[p].wrench.f.stableNormalized();
+      if (stiffness.size() > 1) way.v -= push.dot(way.v) * push;
+      const contact::CouplingStiffness& K = stiffness[in_island];
+      take(p, way, contact::Wrench{K.translational * way.v, K.rotational * way.w});
     }
   };
-  each([&](std::size_t p, const geometry::Displacement& way, const contact::CouplingStiffness& K) {
+  each([&](std::size_t p, const geometry::Displacement& way, const contact::Wrench& spring) {
     against_way -= friction_[p].f.dot(way.v) + friction_[p].t.dot(way.w);
-    of_springs += K.translational * way.v.squaredNorm() + K.rotational * way.w.squaredNorm();
+    of_springs += spring.f.dot(way.v) + spring.t.dot(way.w);
+    share = std::min(share, rubbing_[p] / std::max(rubbing_[p], spring.f.norm()));
   });
-  if (against_way <= 0.0 || of_springs <= 0.0) return;
-  const double share = std::min(1.0, against_way / of_springs);
-  each([&](std::size_t p, const geometry::Displacement& way, const contact::CouplingStiffness& K) {
-    contacts_[p].wrench.f -= share * K.translational * way.v;
-    contacts_[p].wrench.t -= share * K.rotational * way.w;
+  if (!(against_way > 0.0)) return;
+  share = std::min(share, against_way / of_springs);
+  each([&](std::size_t p, const geometry::Displacement& /*way*/, const contact::Wrench& spring) {
+    contacts_[p].wrench.f -= share * spring.f;
+    contacts_[p].wrench.t -= share * spring.t;
   });
 }
 
@@ -195,6 +206,7 @@ void ContactProjection::add_push(std::size_t row_number, double push,
     contacts_[p].wrench.t += r.cross(f);
     friction_[p].f += friction;
     friction_[p].t += r.cross(friction);
+    rubbing_[p] += friction.norm();
     contacts_[p].from_hands += from_hands;
     pushes_[p] += push;
     known_pushes_[p] += known;

@@ -39,10 +39,10 @@ struct PartContacts {
 };
 
 /// The wanted displacements of the parts are projected on the rows of the set, those of parts in contact with each
-/// other together. The force is the sum of the multipliers times the normals, and friction. The friction of the rows
-/// was found for the lag of that time. Now it is a share of the spring's force on the way that the contacts leave the
-/// parts (all of it: they stick), which takes as much energy on this way as the friction of the rows would. So it never
-/// drives a part, and holds it back no farther than where it is.
+/// other together. The force is the sum of the multipliers times the normals, with the friction that belongs to them.
+/// Friction was found for the lag of that time. Now it is a share of the force that the springs exert on the way that
+/// the contacts leave the parts, and no greater than the rows demand: it never drives a part, and holds it back no
+/// farther than where it is.
 ///
 /// Rows that did not push count no more once the ghost has left their `range`. The plane of one that pushed goes on;
 /// its force fades where the projection is more than 3 mm beyond the range, and is zero from 9 mm on. Bodies that move
@@ -91,6 +91,7 @@ class ContactProjection {
   std::array<std::optional<Eigen::Isometry3d>, contact::kMaxParts> X_WP_{};  // where the last projection put each part
   std::array<geometry::Displacement, contact::kMaxParts> way_{};  // from there to where the present one puts it
   std::array<contact::Wrench, contact::kMaxParts> friction_{};    // of the active rows, if all of it acted
+  std::array<double, contact::kMaxParts> rubbing_{};              // N, the sum of its magnitudes
   std::array<double, contact::kMaxParts> pushes_{};               // N, sums over the rows of each part
   std::array<double, contact::kMaxParts> known_pushes_{};
   std::array<PartContacts, contact::kMaxParts> contacts_{};

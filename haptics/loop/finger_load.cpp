@@ -13,21 +13,25 @@ namespace {
 constexpr int kSweeps = 20;
 constexpr double kSmallForces = 0.05;  // against forces that cancel each other
 constexpr double kFollows_s = 30e-3;
-constexpr double kFades_s = 5e-3;
+constexpr double kFades_s = 2e-3;
 constexpr double kMostEnergy_J = 40e-3;
 constexpr double kFades_J = 10e-3;  // below which the torques fade
 constexpr double kMostShare = 0.5;  // of the largest torque of a joint
 // The glove's segment may be so far off the part: up to kFull_m the load is full, from kNone_m on it is zero.
 constexpr double kFull_m = 0.2e-3;
 constexpr double kNone_m = 1.2e-3;
-constexpr double kRefill_W = 1e-3;
+constexpr double kLeastSquare_m2 = 1e-12;
+constexpr double kRefill_W = 5e-3;
+constexpr double kLongestSilence_s = 0.1;    // between states
 constexpr double kFastest_rad_per_s = 30.0;  // a finger; faster is an error of its sensor
 
 }  // namespace
 
-FingerLoad::FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part)
+FingerLoad::FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part,
+                       std::chrono::nanoseconds period)
     : max_torque_(device.max_joint_torque),
-      stiffness_(finger_stiffness(device, kTickPeriod, std::chrono::nanoseconds(0))),
+      stiffness_(finger_stiffness(device, period, std::chrono::nanoseconds(0))),
+      period_s_(std::chrono::duration<double>(period).count()),
       given_(kGiven) {
   for (std::size_t j = 0; j < bears_.size(); ++j)
     bears_[j] = device.joint_lower[j] != 0.0 || device.joint_upper[j] != 0.0;
@@ -69,6 +73,16 @@ void FingerLoad::share(const HandAnswer& hand, const Load& load) noexcept {
       forces_[i] = force;
     }
   }
+  // Where the load fades it is a spring across the gap, f / 1 mm, which is f r·r / 1 mm against joints with the arms r.
+  const auto pressing =
+      static_cast<double>(std::count_if(forces_.begin(), forces_.end(), [](double force) { return force > 0.0; }));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (forces_[i] == 0.0) continue;
+    double squares = kLeastSquare_m2;
+    for (std::size_t j = 0; j < bears_.size(); ++j)
+      squares += bears_[j] ? rows[i].rates[j] * rows[i].rates[j] : 0.0;
+    forces_[i] = std::min(forces_[i], stiffness_ * (kNone_m - kFull_m) / (pressing * squares));
+  }
 }
 
 /// What the forces demand of the joints, within the limits, and which share of it where the glove's segments are.
@@ -76,7 +90,6 @@ void FingerLoad::follow(const HandAnswer& hand, const devices::JointValues& angl
   const std::span<const FingerRow> rows = hand.rows();
   devices::JointValues whole{};
   devices::JointValues present{};
-  devices::JointValues longest_arm_m{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (forces_[i] == 0.0) continue;
     double gap = rows[i].gap;
@@ -86,17 +99,13 @@ void FingerLoad::follow(const HandAnswer& hand, const devices::JointValues& angl
     for (std::size_t j = 0; j < whole.size(); ++j) {
       whole[j] += forces_[i] * rows[i].rates[j];
       present[j] += force * rows[i].rates[j];
-      longest_arm_m[j] = std::max(longest_arm_m[j], std::abs(rows[i].rates[j]));
     }
   }
   const double step = max_torque_ * dt / kFollows_s;
   for (std::size_t j = 0; j < whole.size(); ++j) {
     double wanted = 0.0;
     if (whole[j] != 0.0 && bears_[j]) {
-      // Where the load fades it is a spring: this torque over a millimetre, by the arm.
-      const double most_passive = stiffness_ * (kNone_m - kFull_m) / longest_arm_m[j];
-      const double most = std::min(kMostShare * max_torque_, most_passive);
-      wanted = std::clamp(whole[j], -most, most);
+      wanted = std::clamp(whole[j], -kMostShare * max_torque_, kMostShare * max_torque_);
       const double share = std::clamp(present[j] / whole[j], 0.0, 1.0);
       const double step_of_share = borne_[j] == 0.0 ? 1.0 : dt / kFades_s;
       fading_[j] += std::clamp(share - fading_[j], -step_of_share, step_of_share);
@@ -105,18 +114,27 @@ void FingerLoad::follow(const HandAnswer& hand, const devices::JointValues& angl
   }
 }
 
-/// Since the last call, of the torques that acted then.
+/// Of the motion since the last new angles, under the mean of the torques that acted then.
 void FingerLoad::count_energy(const devices::JointValues& angles, double dt) noexcept {
+  unseen_s_ = std::min(unseen_s_ + dt, kLongestSilence_s);
   const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
-  if (has_angles_ && is_finite) {
-    const double ticks = dt > 0.0 ? std::min(std::round(delay_s_ / dt), static_cast<double>(kGiven - 1)) : 0.0;
-    const devices::JointValues& acted = given_[(newest_ + kGiven - static_cast<std::size_t>(ticks)) % kGiven];
-    for (std::size_t j = 0; j < angles.size(); ++j)
-      energy_ -= acted[j] * std::clamp(angles[j] - last_angles_[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt);
+  const bool is_new = is_finite && !(has_angles_ && angles == last_angles_);
+  if (is_new && has_angles_) {
+    const double most = kFastest_rad_per_s * unseen_s_;
+    const auto ticks = static_cast<std::size_t>(std::max(1.0, std::round(unseen_s_ / period_s_)));
+    const auto late = static_cast<std::size_t>(std::min(std::round(delay_s_ / period_s_), 0.5 * kGiven));
+    for (std::size_t j = 0; j < angles.size(); ++j) {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < ticks; ++i)
+        sum += given_[(newest_ + 2 * kGiven - late - i) % kGiven][j];
+      energy_ -= sum / static_cast<double>(ticks) * std::clamp(angles[j] - last_angles_[j], -most, most);
+    }
   }
-  energy_ = std::clamp(energy_ + kRefill_W * dt, -kStart_J, kMostEnergy_J);
+  energy_ = std::clamp(energy_ + kRefill_W * dt, 0.0, kMostEnergy_J);
   has_angles_ = is_finite;
-  if (is_finite) last_angles_ = angles;
+  if (!is_new) return;
+  unseen_s_ = 0.0;
+  last_angles_ = angles;
 }
 
 }  // namespace glissade::haptics

@@ -4,6 +4,7 @@
 /// hold it.
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -22,14 +23,14 @@ namespace glissade::haptics {
 /// taken that come nearest to the load together and are small. A finger on the side to which a wall presses the part
 /// feels it; what no contact can carry, no finger feels.
 ///
-/// The torques follow the load within 30 ms, and the finger at once. They are exactly zero where there is no load or no
-/// contact for so long.
-/// They may open a finger, but not take it off the part: they fade as the glove's segment leaves, and are zero 1.2 mm
-/// off. There they act as a spring, which must be passive too: behind a link, a joint bears no more than what makes
-/// this spring as stiff as the finger's own (`finger_stiffness`). At most half of the device's largest torque.
+/// The torques follow the load within 30 ms, and are exactly zero where there has been no load or no contact for so
+/// long. They may open a finger, but not take it off the part: they fade as the glove's segment leaves, and are
+/// zero 1.2 mm off. There they follow the finger within 2 ms, as a spring, which must be passive too: a contact bears
+/// no more than what makes it as stiff against all joints together as the finger's own springs are
+/// (`finger_stiffness`), which is little behind a link. At most half of the device's largest torque.
 ///
 /// The torques do not depend on posture alone, so their energy is counted. The account begins with 20 mJ. It grows by
-/// what the fingers put in, and by 1 mW, to 40 mJ at most, and pays for what the torques give. The torques fade before
+/// what the fingers put in, and by 5 mW, to 40 mJ at most, and pays for what the torques give. The torques fade before
 /// it is empty. A motion that is seen was made under the torques that the device had then.
 ///
 /// Real-time safe: bounded work, no allocation. Not thread-safe.
@@ -37,7 +38,8 @@ class FingerLoad {
  public:
   /// `moves_part` are the numbers of the joints that move the palm, and the held part with it: the arm feels what
   /// they would. They get no torque, nor do those that the device does not have.
-  FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part);
+  FingerLoad(const devices::DeviceDescriptor& device, std::span<const std::size_t> moves_part,
+             std::chrono::nanoseconds period = kTickPeriod);
 
   /// What acts on a hand. The load is the wrench on it about the world point `p_Wref`; the part has the number `part`,
   /// and no point of it is farther from there than `radius` (metres); −1: the hand holds none.
@@ -71,10 +73,12 @@ class FingerLoad {
   void count_energy(const devices::JointValues& angles, double dt) noexcept;
 
   static constexpr double kStart_J = 20e-3;
-  static constexpr std::size_t kGiven = 1024;  // ticks: more than the delays of links take, even at 5 kHz
+  /// Ticks: at 5 kHz 0.1 s of delay and 0.1 s without a state. A longer delay leaves next to no load.
+  static constexpr std::size_t kGiven = 1024;
 
   double max_torque_;  // Nm
   double stiffness_;
+  double period_s_;
   double delay_s_ = 0.0;
   std::array<bool, devices::kGloveJoints> bears_;   // a load
   std::array<Vector6, kMaxFingerRows> directions_;  // of the forces: force, and torque by the radius
@@ -86,6 +90,7 @@ class FingerLoad {
   std::size_t newest_ = 0;
   devices::JointValues last_angles_{};
   bool has_angles_ = false;
+  double unseen_s_ = 0.0;  // since the angles last changed
   double energy_ = kStart_J;
 };
 

@@ -33,7 +33,7 @@ FingersOfHand::FingersOfHand(const FingerHand& hand, const devices::DeviceDescri
                              std::chrono::nanoseconds period)
     : hand_(checked_wrist(hand)),
       forces_(hand.limits, device, period),
-      load_(device, joints_of_wrist(hand)),
+      load_(device, joints_of_wrist(hand), period),
       device_delay_(device.delay) {
   set_link_delay(std::chrono::nanoseconds(0));
 }

@@ -124,6 +124,22 @@ TEST_F(Envelope, CountsTheWayOfAHandWhosePoseStoodStillOnceItIsPlausibleAgain) {
   EXPECT_NEAR(push_at(0.0, 1).energy(), before - 20.0 * 0.02, 0.1);
 }
 
+/// It may have been the tracker that jumped.
+TEST_F(Envelope, AJumpTakesTheForceForNoLongerThanTwoSeconds) {
+  push_at(0.0, 1000);
+  state_.X_WH.translation().x() += 0.3;  // 6 J
+  push_at(0.0, 2);
+  EXPECT_LT(push_at(0.0, 200).values().f_H_W.x(), 18.0);
+  EXPECT_GT(push_at(0.0, 1800).values().f_H_W.x(), 18.0);
+}
+
+TEST_F(Envelope, AJumpAgainstTheForceBringsNoEnergy) {
+  const double before = push_at(0.0, 1000).energy();
+  state_.X_WH.translation().x() -= 0.3;
+  push_at(0.0, 1);
+  EXPECT_LE(push_at(0.0, 1).energy(), before);
+}
+
 TEST_F(Envelope, CountsNoWayThatNoHandCanMake) {
   push_at(0.0, 800);
   push_at(-0.1, 200);

@@ -1,10 +1,12 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include <glissade/contact/spring.h>
 
+#include "loop/contact_projection.h"
 #include "one_hand_force.h"
 #include "poses.h"
 
@@ -240,6 +242,46 @@ TEST(ContactForce, FrictionHoldsBackAndNeverDrives) {
   EXPECT_TRUE(settle(contacts, set, at(-0.1e-3, 0.0, -2e-3)).f.isApprox(Vector3d(0.1, 0.0, 2.0), 1e-9))
       << "no farther than where the part is";
   EXPECT_TRUE(settle(contacts, set, at(1e-3, 0.0, -2e-3)).f.isApprox(Vector3d(0.0, 0.0, 2.0), 1e-9)) << "not beyond it";
+}
+
+/// The first part slides on the floor; the second is near it and touches nothing.
+TEST(ContactForce, FrictionOfOnePartIsNotFeltByAnotherThatItDoesNotTouch) {
+  ContactSet set = floor_below(0.0);
+  set.part_count = 2;
+  set.row_array[0].friction_ratio_W = Vector3d(0.3, 0.0, 0.0);
+  set.row_count = 2;
+  set.row_array[1] = {{{Vector3d::UnitY(), Vector3d::Zero(), -5e-3}, 0, 1}};
+  std::array<LedPart, 2> parts;
+  for (LedPart& part : parts)
+    part = {.stiffness = {kStiffness, 10.0}, .acts = true};
+  parts[0].X_WG = at(-5e-3, 0.0, -5e-3);
+  parts[1].X_WG = at(-5e-3, 0.0, 0.0);
+  ContactProjection projection(2);
+  projection.update(set, nanoseconds(0), parts, kTick_s);
+  EXPECT_TRUE(projection.of_part(0).wrench.f.isApprox(Vector3d(1.5, 0.0, 5.0), 1e-9));
+  EXPECT_EQ(projection.of_part(1).wrench.f, Vector3d::Zero());
+}
+
+/// The first part slides on the second one. Both lag behind by what friction holds back, 1 N, and the first by more.
+TEST(ContactForce, FrictionOfTwoPartsActsOnBoth) {
+  ContactSet set;
+  set.sequence = 1;
+  set.part_count = 2;
+  set.row_count = 1;
+  set.row_array[0] = {{{Vector3d::UnitZ(), Vector3d::Zero(), 0.0}, 0, 1}};
+  set.row_array[0].friction_ratio_W = Vector3d(0.5, 0.0, 0.0);
+  std::array<LedPart, 2> parts;
+  for (LedPart& part : parts)
+    part = {.stiffness = {kStiffness, 10.0}, .acts = true};
+  parts[0].X_WG = at(-1e-3, 0.0, -4e-3);
+  parts[1].X_WG = at(1e-3, 0.0, 0.0);
+  ContactProjection projection(2);
+  projection.update(set, nanoseconds(0), parts, kTick_s);
+  EXPECT_TRUE(projection.of_part(0).wrench.f.isApprox(Vector3d(1.0, 0.0, 2.0), 1e-9)) << "2 mm each";
+  EXPECT_TRUE(projection.of_part(1).wrench.f.isApprox(Vector3d(-1.0, 0.0, -2.0), 1e-9));
+  parts[0].X_WG = at(-9e-3, 0.0, -4e-3);
+  projection.update(set, nanoseconds(0), parts, kTick_s);
+  EXPECT_LE(projection.of_part(0).wrench.f.x(), 1.0 + 1e-9) << "no greater than its cone";
 }
 
 TEST(ContactForce, AContactThatTheGhostHasLeftNoLongerActs) {

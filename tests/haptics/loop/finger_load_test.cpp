@@ -135,7 +135,7 @@ TEST_F(LoadOnFingers, GivesNoMoreEnergyThanItIsAllowed) {
     const double moved = is_opening ? -2e-4 : 2e-4;
     given_J += torques[kIndex] * moved;
     angles_[kIndex] += moved;
-    ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 2e-4 * device_.max_joint_torque) << ms << " ms";
+    ASSERT_LE(given_J, 20e-3 + 5e-3 * kFingerTick_s * ms + 2e-4 * device_.max_joint_torque) << ms << " ms";
   }
   EXPECT_GT(given_J, 20e-3) << "it has been tried";
 }
@@ -155,14 +155,47 @@ TEST_F(LoadOnFingers, NoRandomHandGetsMoreEnergyThanIsAllowed) {
       angles_[joint] += moved;
       hand.visible.angles[joint] = angles_[joint];
     }
-    ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 8e-3 * device_.max_joint_torque) << ms << " ms";
+    ASSERT_LE(given_J, 20e-3 + 5e-3 * kFingerTick_s * ms + 8e-3 * device_.max_joint_torque) << ms << " ms";
   }
 }
 
 // Where it fades, it is a spring over a millimetre, which must be as soft as the finger's own spring.
 TEST_F(LoadOnFingers, IsLessBehindALink) {
   load_.set_link(20e-3, 1.0);
-  EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], -1.0 * 1e-3 / kArm_m, 1e-12);
+  EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], -1.0 * 1e-3 / kArm_m, 1e-9);
+}
+
+TEST_F(LoadOnFingers, OfSeveralJointsIsNoStifferThanThatOfOne) {
+  constexpr double kStiffness = 4.0;  // Nm/rad
+  load_.set_link(5e-3, kStiffness);
+  HandAnswer hand = pinch();
+  hand.row_array[kIndex].rates = {};
+  const std::array<std::size_t, 3> joints{4, 5, 6};
+  const std::array<double, 3> arms{0.09, 0.05, 0.025};
+  double squares = 0.0;
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    hand.row_array[kIndex].rates[joints[i]] = -arms[i];
+    squares += arms[i] * arms[i];
+  }
+  const JointValues torques = settle(hand, {20.0, 0.0, 0.0});
+  for (std::size_t i = 0; i < joints.size(); ++i)
+    EXPECT_NEAR(torques[joints[i]], -kStiffness * 1e-3 * arms[i] / squares, 1e-9) << "joint " << joints[i];
+}
+
+/// A glove that measures every 10 ms: the account sees the same motion.
+TEST_F(LoadOnFingers, OfASlowGloveGivesNoMoreEnergyThanItIsAllowed) {
+  double given_J = 0.0;
+  double angle = 0.0;
+  for (int ms = 0; ms < 20'000; ++ms) {
+    const bool is_opening = ms / 50 % 2 == 0;
+    if (ms % 10 == 0) angles_[kIndex] = angle;
+    const double torque = tick(pinch(), {is_opening ? 3.0 : 0.0, 0.0, 0.0})[kIndex];
+    const double moved = is_opening ? -3e-4 : 3e-4;
+    given_J += torque * moved;
+    angle += moved;
+    ASSERT_LE(given_J, 20e-3 + 5e-3 * kFingerTick_s * ms + 3e-3 * device_.max_joint_torque) << ms << " ms";
+  }
+  EXPECT_GT(given_J, 10e-3) << "it has been tried";
 }
 
 /// Torques that act 10 ms late on a finger that goes to and fro, loaded on the way out only when it is seen.
@@ -178,7 +211,7 @@ TEST_F(LoadOnFingers, BehindALinkGivesNoMoreEnergyThanItIsAllowed) {
     given_J += under_way.front() * moved;
     under_way.pop_front();
     angles_[kIndex] += moved;
-    ASSERT_LE(given_J, 20e-3 + 1e-3 * kFingerTick_s * ms + 2e-3 * device_.max_joint_torque) << ms << " ms";
+    ASSERT_LE(given_J, 20e-3 + 5e-3 * kFingerTick_s * ms + 2e-3 * device_.max_joint_torque) << ms << " ms";
   }
   EXPECT_GT(given_J, 20e-3) << "it has been tried";
 }
@@ -193,7 +226,9 @@ TEST_F(LoadOnFingers, IsThereAgainSoonAfterAnAngleThatWasWrong) {
   angles_[kIndex] = -6.0;
   tick(pinch(), {3.0, 0.0, 0.0});
   angles_[kIndex] = 0.0;
-  EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], full, 0.2 * std::abs(full));
+  for (int ms = 0; ms < 2000; ++ms)
+    tick(pinch(), {3.0, 0.0, 0.0});
+  EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], full, 1e-9);
 }
 
 TEST_F(LoadOnFingers, DoesNotSufferFromAnglesThatAreNone) {

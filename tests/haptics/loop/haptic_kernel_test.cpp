@@ -78,7 +78,9 @@ TEST_F(Kernel, LettingGoOfALongPartKicksNoHand) {
 
 TEST_F(Kernel, ADeepHandFeelsTheLargestForceHoweverSoftTheCoupling) {
   tick(hand_at({0.4, 0.0, 0.5}), floor_below(0.0));
-  const HandTick last = settle(hand_at({0.4, 0.0, 0.2}), floor_below(0.0));
+  HandTick last;
+  for (int i = 0; i < 4; ++i)  // a soft coupling changes its force slowly
+    last = settle(hand_at({0.4, 0.0, 0.2}), floor_below(0.0));
   EXPECT_NEAR(last.command.values().f_H_W.norm(), device_.max_force, 1e-6);
 }
 
@@ -136,7 +138,7 @@ TEST_F(Kernel, TheSupplyIsTheWorkOfTheExertedForceOnly) {
       << "more than the device gives is not exerted";
 
   // The simulation halts, and answers again: the force returns over 200 ms.
-  for (int i = 0; i < 6; ++i)  // the jump out of the floor counts as work of the force
+  for (int i = 0; i < 4; ++i)  // the jump out of the floor counts as work of the force
     settle(hand_at({0.0, 0.0, 0.498}), rising);
   ContactSet old = rising;
   old.time = now_;
