@@ -25,9 +25,9 @@ namespace glissade::haptics {
 ///
 /// The torques follow the load within 30 ms, and are exactly zero where there has been no load or no contact for so
 /// long. They may open a finger, but not take it off the part: they fade as the glove's segment leaves, and are
-/// zero 1.2 mm off. There they follow the finger within 2 ms, as a spring, which must be passive too: a contact bears
-/// no more than what makes it as stiff against all joints together as the finger's own springs are
-/// (`finger_stiffness`), which is little behind a link. At most half of the device's largest torque.
+/// zero 1.2 mm off. There they follow the finger within 2 ms. So they are a spring, which must be passive too: the
+/// force of a contact is limited so that this spring, against all joints together, is no stiffer than the finger's own
+/// (`finger_stiffness`). Behind a link that leaves little. At most half of the device's largest torque.
 ///
 /// The torques do not depend on posture alone, so their energy is counted. The account begins with 20 mJ. It grows by
 /// what the fingers put in, and by 5 mW, to 40 mJ at most, and pays for what the torques give. The torques fade before
