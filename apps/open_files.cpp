@@ -58,12 +58,13 @@ std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path,
 
 Scene open_scene(const std::string& path) {
   Scene scene = read_scene(path);
-  for (const std::string& warning : scene.mesh_warnings)
-    warn_or_refuse(warning);
   std::set<const geometry::TriangleMesh*> said;
   for (const SceneObject& object : scene.objects) {
-    if (!said.insert(object.mesh.get()).second) continue;
-    say_what_is_left_out(path + ": the mesh of object " + in_quotes(object.name), object.degenerate_triangles);
+    const SceneMesh& mesh = object.mesh;
+    if (!said.insert(mesh.shared().get()).second) continue;
+    for (const std::string& warning : mesh.warnings())
+      warn_or_refuse(warning);
+    say_what_is_left_out(path + ": the mesh of object " + in_quotes(object.name), mesh.degenerate_triangles());
   }
   return scene;
 }

@@ -12,7 +12,7 @@
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/query_types.h>
 #include <glissade/collision/world.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 #include "pipeline/interest_matrix.h"
 

@@ -7,7 +7,7 @@
 
 #include <glissade/base/assert.h>
 #include <glissade/contact/multi_part_sliding.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 #include "cycle/contact_report.h"
 #include "cycle/search_radius.h"

@@ -20,7 +20,7 @@ namespace glissade::contact {
 
 struct SlidingOptions {
   Metaphor metaphor = Metaphor::kForceFeedback;
-  std::optional<CouplingStiffness> stiffness{};  ///< default: `default_stiffness` of the part's radius
+  std::optional<CouplingStiffness> stiffness{};  ///< default: `stiffness_of_part` of the part's radius
   SlidingRules rules{};
 };
 

@@ -38,4 +38,15 @@ std::string_view name_of(SlidingState state) {
   return "unknown";
 }
 
+Wrench contact_wrench(const SlidingResult& result, const Eigen::Vector3d& p_Vref) {
+  const Eigen::Vector3d p_Wref = result.X_WV_of_contacts * p_Vref;
+  Wrench sum;
+  for (const Contact& contact : result.contacts) {
+    const Eigen::Vector3d f_W = contact.force * contact.n_W + contact.friction_W;
+    sum.f += f_W;
+    sum.t += (contact.p_W - p_Wref).cross(f_W);
+  }
+  return sum;
+}
+
 }  // namespace glissade::contact

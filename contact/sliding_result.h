@@ -14,6 +14,8 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/contact/spring.h>
+
 namespace glissade::contact {
 
 /// The two features (vertex, edge or face) in contact: first the feature of the part, then the feature of the obstacle.
@@ -103,5 +105,9 @@ struct SlidingResult {
   bool ended_early = false;
   int cycles = 0;  ///< cycles of one projection and one step each; for the paper's method, bisections
 };
+
+/// What the contacts of a part exert on the hands that hold it, about the part's reference point p_Vref, in world axes.
+/// At rest it balances the spring of the coupling. A part that only needs time to follow exerts nothing.
+Wrench contact_wrench(const SlidingResult& result, const Eigen::Vector3d& p_Vref);
 
 }  // namespace glissade::contact

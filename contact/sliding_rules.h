@@ -130,7 +130,7 @@ struct HeldPart {
   std::shared_ptr<const SlidingPart> part_V;
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();  ///< a scripted part starts where its script does
   Metaphor metaphor = Metaphor::kForceFeedback;
-  std::optional<CouplingStiffness> stiffness{};  ///< default: `default_stiffness` of the part's radius
+  std::optional<CouplingStiffness> stiffness{};  ///< default: `stiffness_of_part` of the part's radius
   std::string name = "the part";                 ///< for messages
   /// If set, the script holds the part, and no hand can. A scripted part follows its script or waits at an obstacle;
   /// neither spiral search nor depenetration moves it.

@@ -5,9 +5,8 @@
 
 namespace glissade::contact {
 
-CouplingStiffness default_stiffness(double radius) {
-  constexpr double kTranslational_N_per_m = 1000.0;
-  return {kTranslational_N_per_m, kTranslational_N_per_m * radius * radius};
+CouplingStiffness stiffness_of_part(double radius, double translational) {
+  return {translational, translational * radius * radius};
 }
 
 void validate(const CouplingStiffness& stiffness, const std::string& part_name) {

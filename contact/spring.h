@@ -29,9 +29,11 @@ struct CouplingStiffness {
 /// Throws std::invalid_argument, naming the part by `part_name`, unless both numbers are positive and finite.
 void validate(const CouplingStiffness& stiffness, const std::string& part_name);
 
-/// The default stiffness for a part of radius ρ (metres): 1000 N/m against translation and ρ² times that against
-/// rotation.
-CouplingStiffness default_stiffness(double radius);
+/// Of the coupling against translation, if nothing else is said.
+inline constexpr double kUsualStiffness_N_per_m = 1000.0;
+
+/// The stiffness for a part of radius ρ (metres): against rotation, ρ² times that against translation.
+CouplingStiffness stiffness_of_part(double radius, double translational = kUsualStiffness_N_per_m);
 
 /// Force (N) and torque (Nm) on a body about some point, in world axes.
 struct Wrench {

@@ -54,12 +54,12 @@ void validate(const DeviceDescriptor& descriptor) {
   if (descriptor.frozen < std::chrono::nanoseconds(0)) refuse("frozen", "must not be negative");
   if (descriptor.delay < std::chrono::nanoseconds(0)) refuse("delay", "must not be negative");
   if (descriptor.delay > std::chrono::seconds(1)) refuse("delay", "must not be longer than a second");
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];
     const bool is_absent = lower == 0.0 && upper == 0.0;
     if (!std::isfinite(lower) || !std::isfinite(upper) || (lower >= upper && !is_absent)) {
-      refuse(kGloveJointNames[i], "needs a finite lower limit below a finite upper limit");
+      refuse(hands::kJointNames[i], "needs a finite lower limit below a finite upper limit");
     }
   }
 }

@@ -13,57 +13,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/hands/hand.h>
+
 namespace glissade::devices {
-
-inline constexpr int kGloveJoints = 22;
-
-/// One number per joint, in the order of `kGloveJointNames`.
-using JointValues = std::array<double, kGloveJoints>;
-
-/// Names of the joints, in CyberGlove order. An abduction named after two fingers is the angle between these fingers.
-inline constexpr std::array<std::string_view, kGloveJoints> kGloveJointNames{"thumb_roll",
-                                                                             "thumb_mcp",
-                                                                             "thumb_ip",
-                                                                             "thumb_index_abduction",
-                                                                             "index_mcp",
-                                                                             "index_pip",
-                                                                             "index_dip",
-                                                                             "middle_mcp",
-                                                                             "middle_pip",
-                                                                             "middle_dip",
-                                                                             "middle_index_abduction",
-                                                                             "ring_mcp",
-                                                                             "ring_pip",
-                                                                             "ring_dip",
-                                                                             "ring_middle_abduction",
-                                                                             "little_mcp",
-                                                                             "little_pip",
-                                                                             "little_dip",
-                                                                             "little_ring_abduction",
-                                                                             "palm_arch",
-                                                                             "wrist_flexion",
-                                                                             "wrist_abduction"};
-
-struct JointRange {
-  double lower_deg;
-  double upper_deg;
-};
-
-/// How far the joints of a human hand go, in the order of `kGloveJointNames`. A thumb rolled to its lower limit lies in
-/// the plane of the palm. The ranges of the abductions keep every finger within its range to the palm: index −15..30,
-/// ring −20..15, little −40..20 degrees towards the thumb.
-inline constexpr std::array<JointRange, kGloveJoints> kHandJointRanges{{{-20, 60}, {-10, 60}, {-15, 80}, {0, 60},
-                                                                        {-20, 90}, {0, 105},  {-10, 90},  // index
-                                                                        {-20, 90}, {0, 105},  {-10, 90},  // middle
-                                                                        {-15, 30},  // to the index
-                                                                        {-20, 90}, {0, 105},  {-10, 90},  // ring
-                                                                        {-15, 20},  // to the middle finger
-                                                                        {-20, 90}, {0, 105},  {-10, 90},  // little
-                                                                        {-5, 20},                         // to the ring
-                                                                        {0, 30},   {-70, 80}, {-30, 20}}};
-
-/// The hand that wears a glove. Messages carry the number.
-enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
 /// Reasons why a command differs from the wanted one. The first seven let the force fade to zero.
 struct LimitReasons {
@@ -126,7 +78,7 @@ struct GloveState {
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< velocity of the origin of H, in world axes; m/s
   Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< angular velocity of H, in world axes; rad/s
-  JointValues joint_angles{};
+  hands::JointValues joint_angles{};
   /// How often the hand has closed or opened so far: odd while it is closed and holds what it can. A count loses
   /// nothing when states are lost. A driver that cannot tell leaves it at 1.
   std::int64_t grip = 1;
@@ -152,7 +104,7 @@ struct GloveCommand {
   std::chrono::nanoseconds time{0};                 ///< time of the computation, on the sender's clock
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
-  JointValues joint_torques{};                      ///< positive toward larger joint angles
+  hands::JointValues joint_torques{};               ///< positive toward larger joint angles
   /// J, so far: the energy that bodies which move without this hand, such as a part in another hand, have given to it,
   /// less what they ask of it; and the hand's work against force that was withheld. Where it rises, the envelope lets
   /// force and torque give the hand so much more. Where it falls, the hand gives up what it can spare
@@ -189,9 +141,9 @@ struct DeviceDescriptor {
   double max_turn_rate = 100.0;        ///< the same for the rotation, rad/s
   double workspace_radius = 1000.0;    ///< a hand that seems farther from the world's origin is an error of the tracker
   std::chrono::nanoseconds frozen{0};  ///< a pose that repeats to the bit for longer is an error; 0: not checked
-  JointValues joint_lower{};    ///< lower limits of the joint angles; both limits of a joint that is absent are 0
-  JointValues joint_upper{};    ///< upper limits of the joint angles
-  double update_rate = 1000.0;  ///< updates per second
+  hands::JointValues joint_lower{};  ///< lower limits of the joint angles; both limits of a joint that is absent are 0
+  hands::JointValues joint_upper{};  ///< upper limits of the joint angles
+  double update_rate = 1000.0;       ///< updates per second
 };
 
 /// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
@@ -207,7 +159,7 @@ double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;
 struct GloveInfo {
   std::int64_t device = 0;   ///< number of the glove
   std::int64_t session = 0;  ///< random number of the glove's process
-  HandSide side = HandSide::kUnknown;
+  hands::HandSide side = hands::HandSide::kUnknown;
   DeviceDescriptor descriptor;
 };
 

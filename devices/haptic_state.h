@@ -16,6 +16,7 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/geometry/displacement.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::devices {
 
@@ -49,63 +50,6 @@ inline constexpr std::size_t kHapticContacts = 24;
 /// Maximum number of patches in a `HapticState`: a part in a corner has three.
 inline constexpr std::size_t kHapticPatches = 8;
 
-/// What a hand with fingers does. Messages carry its number.
-enum class HandActivity : std::int32_t {
-  kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
-  kLost = 1,     ///< its tracker does not see it, and it holds nothing
-  kWaiting = 2,  ///< it has been inside an object since the start or since it was found, and waits until it is free
-  kFree = 3,     ///< it holds nothing, though it may touch
-  kHolding = 4,  ///< a part moves with it, also while its tracker does not see it
-};
-
-/// Whether a hand with fingers stands somewhere among the objects. One that waits or is lost is in nobody's way, and
-/// its posture has no meaning.
-constexpr bool is_present(HandActivity activity) noexcept {
-  return activity == HandActivity::kFree || activity == HandActivity::kHolding;
-}
-
-/// Number of activities; their values run from 0 to kHandActivities − 1.
-inline constexpr std::int32_t kHandActivities = 5;
-
-/// What the segments that touch make of a grasp (paper §4). Messages carry its number.
-enum class GraspKind : std::int32_t { kNone = 0, kPush = 1, kPrecision = 2, kPower = 3 };
-
-/// Number of kinds; their values run from 0 to kGraspKinds − 1.
-inline constexpr std::int32_t kGraspKinds = 4;
-
-/// A grasp with a name of its own, among those of a kind. Messages carry its number.
-enum class GraspForm : std::int32_t {
-  kNone = 0,
-  kTipPinch = 1,    ///< precision: outer segments of thumb and index only
-  kThreeJaw = 2,    ///< precision: outer segments of thumb, index and middle finger, both fingers from one side
-  kThreePoint = 3,  ///< precision: outer segments of thumb and two fingers, from three sides
-  kKey = 4,         ///< precision: the thumb's outer segment against the side of the index
-  kCigarette = 5,   ///< push: two neighboring fingers from opposite sides, without the thumb
-  kGravity = 6,     ///< push or power: all contacts carry the object from below, two at least
-};
-
-/// Number of forms; their values run from 0 to kGraspForms − 1.
-inline constexpr std::int32_t kGraspForms = 7;
-
-/// The name of an activity or a kind, such as "holding" or "power". Any other value is called "none".
-std::string_view name_of(HandActivity activity);
-std::string_view name_of(GraspKind kind);
-/// The name of a form, such as "tip-pinch"; empty for kNone and any other value.
-std::string_view name_of(GraspForm form);
-
-/// A hand with fingers as the simulation shows it: it never goes into anything.
-struct VisibleHand {
-  HandActivity activity = HandActivity::kNone;
-  GraspKind grasp = GraspKind::kNone;
-  GraspForm form = GraspForm::kNone;
-  /// The segments that touch what is grasped, the reason of the grasp: the sum of 2^(4 f + s) over them, where f is 0
-  /// for the palm and 1 to 5 for thumb to little finger; s is 0 for the palm and 1 to 3 for a finger's inner, middle
-  /// and outer segment.
-  std::int32_t touching = 0;
-  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
-  JointValues angles{};  ///< rad
-};
-
 /// A part after one haptic tick.
 struct HapticPartState {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< of a part that no hand holds: X_WV
@@ -136,8 +80,8 @@ struct HapticHandState {
   std::chrono::nanoseconds command_age{0};  ///< `GloveState::command_age`
   double energy = 0.0;                      ///< `SafeCommand::energy`, J
   double glove_energy = 0.0;                ///< `GloveState::energy`
-  VisibleHand visible;                      ///< of a hand with fingers
-  JointValues joint_torques{};              ///< Nm, as its device got them
+  hands::VisibleHand visible;               ///< of a hand with fingers
+  hands::JointValues joint_torques{};       ///< Nm, as its device got them
 };
 
 /// J that force and torque may still give to the hand: by the envelope of the glove, if its states tell of one, because

@@ -108,7 +108,7 @@ class LcmGlove final : public GloveDevice {
 
 struct LcmGloveHostOptions {
   std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to all others are rejected
-  HandSide side = HandSide::kUnknown;
+  hands::HandSide side = hands::HandSide::kUnknown;
   /// A command may answer a state that was measured so many periods of the device ago: the time for the way to the
   /// server and back. After that, the force fades.
   double patience_periods = 6.0;

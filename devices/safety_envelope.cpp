@@ -101,7 +101,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
   // The return begins at zero, however soon the force was there.
-  const bool is_zero = forces.f.isZero(0.0) && forces.t.isZero(0.0) && forces.joints == JointValues{};
+  const bool is_zero = forces.f.isZero(0.0) && forces.t.isZero(0.0) && forces.joints == hands::JointValues{};
   if (reasons.is_fading() && is_zero) gain_ = 0.0;
   mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
   last_ = forces;
@@ -134,7 +134,7 @@ SafetyEnvelope::Forces SafetyEnvelope::faded(double dt) const noexcept {
   };
   Forces forces{shorter(last_.f, share * descriptor_.max_force), shorter(last_.t, share * descriptor_.max_torque), {}};
   const double by = share * descriptor_.max_joint_torque;
-  for (std::size_t i = 0; i < kGloveJoints; ++i)
+  for (std::size_t i = 0; i < hands::kJoints; ++i)
     forces.joints[i] = last_.joints[i] - std::clamp(last_.joints[i], -by, by);
   return forces;
 }
@@ -172,7 +172,7 @@ void SafetyEnvelope::limit_rates(Forces& forces, double dt, LimitReasons& reason
   limit_norm(forces.f, descriptor_.max_force);
   limit_norm(forces.t, descriptor_.max_torque);
   reasons.rate_limited = force_limited || torque_limited;
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double step = joint_torque_rate_ * dt;
     const double limited = std::clamp(forces.joints[i], last_.joints[i] - step, last_.joints[i] + step);
     reasons.rate_limited = reasons.rate_limited || limited != forces.joints[i];

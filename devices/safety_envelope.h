@@ -125,7 +125,7 @@ class SafetyEnvelope {
   struct Forces {
     Eigen::Vector3d f = Eigen::Vector3d::Zero();
     Eigen::Vector3d t = Eigen::Vector3d::Zero();
-    JointValues joints{};
+    hands::JointValues joints{};
   };
 
   double seconds_since_last_call(std::chrono::nanoseconds now) noexcept;

@@ -46,10 +46,10 @@ void check_stable(std::string_view what, double inertia, double stiffness, doubl
                               " stiffness or damping is too large for the inertia to be simulated in steps of 1 ms.");
 }
 
-void check_posture(std::string_view name, const JointValues& posture) {
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+void check_posture(std::string_view name, const hands::JointValues& posture) {
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
     if (std::isfinite(posture[i])) continue;
-    throw std::invalid_argument("Simulated glove: " + std::string(name) + " of " + std::string(kGloveJointNames[i]) +
+    throw std::invalid_argument("Simulated glove: " + std::string(name) + " of " + std::string(hands::kJointNames[i]) +
                                 " is not finite.");
   }
 }
@@ -79,7 +79,7 @@ void check(const SimulatedGloveParameters& p) {
 
 }  // namespace
 
-JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept {
+hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept {
   const auto next =
       std::upper_bound(timed.begin(), timed.end(), time,
                        [](std::chrono::nanoseconds t, const TimedAngles& entry) { return t < entry.time; });
@@ -88,7 +88,7 @@ JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanose
   const TimedAngles& before = *(next - 1);
   const double share =
       static_cast<double>((time - before.time).count()) / static_cast<double>((next->time - before.time).count());
-  JointValues angles{};
+  hands::JointValues angles{};
   for (std::size_t i = 0; i < angles.size(); ++i)
     angles[i] = before.angles[i] + share * (next->angles[i] - before.angles[i]);
   return angles;
@@ -107,9 +107,9 @@ DeviceDescriptor simulated_glove_descriptor() {
   descriptor.rotational_damping = kArmRotationalDamping;
   descriptor.joint_damping = kJointDamping;
   descriptor.max_power = 40.0;
-  for (std::size_t i = 0; i < kHandJointRanges.size(); ++i) {
-    descriptor.joint_lower[i] = kHandJointRanges[i].lower_deg * kRadiansPerDegree;
-    descriptor.joint_upper[i] = kHandJointRanges[i].upper_deg * kRadiansPerDegree;
+  for (std::size_t i = 0; i < hands::kJointRanges.size(); ++i) {
+    descriptor.joint_lower[i] = hands::kJointRanges[i].lower_deg * kRadiansPerDegree;
+    descriptor.joint_upper[i] = hands::kJointRanges[i].upper_deg * kRadiansPerDegree;
   }
   descriptor.update_rate = 1000.0;
   return descriptor;
@@ -126,8 +126,8 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
   state_.grip = grip_at(script_time_);
   state_.X_WH = script_X_WH_.pose_at(script_time_);
   q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
-  const JointValues aim = aim_of_fingers();
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+  const hands::JointValues aim = aim_of_fingers();
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
     state_.joint_angles[i] = std::clamp(aim[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }
 }
@@ -161,7 +161,7 @@ std::int64_t SimulatedGlove::grip_at(std::chrono::nanoseconds time) const noexce
          (std::upper_bound(changes.begin(), changes.end(), time) - changes.begin());
 }
 
-JointValues SimulatedGlove::aim_of_fingers() const noexcept {
+hands::JointValues SimulatedGlove::aim_of_fingers() const noexcept {
   if (!parameters_.fingers.empty()) return angles_at(parameters_.fingers, script_time_);
   const bool is_open = grip_at(script_time_) % 2 == 0;
   return is_open && parameters_.open_posture ? *parameters_.open_posture : parameters_.grasp_posture;
@@ -191,10 +191,10 @@ void SimulatedGlove::turn_hand(double h, double pace, const Eigen::Vector3d& t_H
 }
 
 // Fingers weigh little: each approaches the equilibrium of the wearer's grip and the torque without overshoot.
-void SimulatedGlove::move_fingers(double h, double share, const JointValues& torques) noexcept {
+void SimulatedGlove::move_fingers(double h, double share, const hands::JointValues& torques) noexcept {
   const double part = -std::expm1(-h / parameters_.finger_time_constant);
-  const JointValues aim = aim_of_fingers();
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+  const hands::JointValues aim = aim_of_fingers();
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double balance = aim[i] + share * torques[i] / parameters_.finger_stiffness;
     double& angle = state_.joint_angles[i];
     angle = std::clamp(angle + part * (balance - angle), descriptor_.joint_lower[i], descriptor_.joint_upper[i]);

@@ -28,12 +28,12 @@ inline constexpr double kJointDamping = 0.02;
 /// Joint angles (rad) at a time of the script.
 struct TimedAngles {
   std::chrono::nanoseconds time{0};
-  JointValues angles{};
+  hands::JointValues angles{};
 };
 
 /// The angles at a time: linear between two entries, constant before the first and after the last. `timed` has at least
 /// one entry; their times rise. Cost O(log n).
-JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
+hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
 
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
 /// about as stiff as a relaxed to lightly tensed human arm. A steady force F displaces the hand from the script by
@@ -51,9 +51,9 @@ struct SimulatedGloveParameters {
   /// Time constant of a finger's approach to its equilibrium; s. Times the stiffness it is the friction of glove and
   /// finger together.
   double finger_time_constant = 0.05;
-  JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
+  hands::JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
   /// The same while the hand is open; none: the hand opens without moving its fingers.
-  std::optional<JointValues> open_posture{};
+  std::optional<hands::JointValues> open_posture{};
   /// Joint angles over the time of the script, which replace both postures. Without entries, the grip chooses the
   /// posture.
   std::vector<TimedAngles> fingers{};
@@ -94,11 +94,11 @@ class SimulatedGlove {
 
  private:
   std::int64_t grip_at(std::chrono::nanoseconds time) const noexcept;
-  JointValues aim_of_fingers() const noexcept;
+  hands::JointValues aim_of_fingers() const noexcept;
   double share_of_command(std::chrono::nanoseconds age) const noexcept;
   void move_hand(double h, double pace, const Eigen::Vector3d& f_H_W) noexcept;
   void turn_hand(double h, double pace, const Eigen::Vector3d& t_H_W) noexcept;
-  void move_fingers(double h, double share, const JointValues& torques) noexcept;
+  void move_fingers(double h, double share, const hands::JointValues& torques) noexcept;
 
   geometry::PoseTrajectory script_X_WH_;
   SimulatedGloveParameters parameters_;

@@ -1,42 +1,25 @@
 // A hand closes round a ball, lifts it and lets go. Nothing but the angles of its joints says so.
-
-#include <algorithm>
 #include <array>
 #include <iostream>
-#include <memory>
-#include <optional>
 
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/simulation/simulation.h>
 
 int main() {
   using namespace glissade;
-  const auto at = [](double x, double y, double z) { return Eigen::Isometry3d(Eigen::Translation3d(x, y, z)); };
-  const auto mesh = [](const geometry::TriangleMesh& m) { return std::make_shared<geometry::TriangleMesh>(m); };
-  const auto ball_V = std::make_shared<contact::SlidingPart>(mesh(geometry::make_sphere(0.035, 2000)));
-  const auto table = std::make_shared<contact::ContactBody>(mesh(geometry::make_box({0.6, 0.6, 0.02}, 200)));
-  const auto hand = std::make_shared<const grasping::HandModel>(grasping::make_hand());
-
-  // The ball lies before the palm of a hand with its root at the origin, and just above a table.
-  grasping::GraspSimulation simulation({{table, at(0.1, 0.0, -0.102), "table"}},
-                                       {{.part_V = ball_V, .X_WV_start = at(0.095, 0.0, -0.056)}}, {hand});
-  const auto hand_at = [&](double z, double bend) {
-    grasping::Posture posture{at(0.0, 0.0, z), {}};
-    for (const grasping::FlexValue& value : hand->chain.values()) {
-      const bool bends = value.name.ends_with("_mcp") || value.name.ends_with("_pip") || value.name == "thumb_roll";
-      posture.values.push_back(bends ? bend : 0.0);
-    }
-    return posture;
-  };
-  auto last = devices::HandActivity::kNone;
+  const Eigen::Isometry3d X_WTable(Eigen::Translation3d(0.1, 0.0, -0.102));
+  const Eigen::Isometry3d X_WBall(Eigen::Translation3d(0.095, 0.0, -0.056));  // before the palm, just above the table
+  simulation::Simulation simulation({.objects = {{"table", geometry::make_box({0.6, 0.6, 0.02}, 200), X_WTable},
+                                                 {"ball", geometry::make_sphere(0.035, 2000), X_WBall, true}},
+                                     .hands = {grasping::HandShape{}}});
+  grasping::Posture posture{.values = std::vector<double>(hands::kJoints, 0.0)};  // the root at the origin, open
   for (int ms = 0; ms < 1500; ++ms) {
-    const double close = std::clamp(ms / 300.0, 0.0, 1.0) - std::clamp((ms - 1100) / 300.0, 0.0, 1.0);
-    const double lift = 0.2 * std::clamp((ms - 500) / 500.0, 0.0, 1.0);
-    simulation.advance(std::array{std::optional(hand_at(lift, 1.2 * close))});
-    const devices::HandActivity now = simulation.activity(0);
-    if (now != last) std::cout << ms << " ms: " << name_of(now) << "; " << reason_of(simulation.grasp(0)) << "\n";
-    last = now;
+    for (const std::size_t joint : {0u, 1u, 4u, 5u, 7u, 8u, 11u, 12u, 15u, 16u})  // of `hands::kJointNames`
+      posture.values[joint] = 1.2 * (ms < 1100 ? std::min(1.0, ms / 300.0) : std::max(0.0, (1400 - ms) / 300.0));
+    posture.X_WR.translation().z() = 0.2 * std::clamp((ms - 500) / 500.0, 0.0, 1.0);
+    simulation.advance(std::array{std::optional(posture)});
+    if (ms % 500 == 499) std::cout << reason_of(simulation.engine().grasp(0)) << '\n';
   }
-  std::cout << "The ball has come up by " << (simulation.parts().result(0).X_WV.translation().z() + 0.056) * 1e3
-            << " mm, and stays there.\n";
+  std::cout << "The ball has come up by " << (simulation.X_WV(0) * X_WBall.inverse()).translation().z() * 1e3
+            << " mm\n";
 }

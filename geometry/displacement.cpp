@@ -7,6 +7,11 @@
 namespace glissade::geometry {
 namespace {
 
+// Of rotations: no defect, the greatest that is mended; of positions, the greatest coordinate, m.
+constexpr double kNone = 1e-12;
+constexpr double kMost = 1e-4;
+constexpr double kMostCoordinate = 1e9;
+
 Eigen::Vector3d log_rotation(Eigen::Quaterniond q) {
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();
@@ -52,6 +57,21 @@ double fraction_within(const Displacement& d, double radius, double longest) {
   if (motion_bound(d, radius) <= longest) return 1.0;
   // For the angle a, the chord 2 sin(f a / 2) is at most the arc f a, but may exceed the scaled chord f · 2 sin(a / 2).
   return longest / (d.v.norm() + d.w.norm() * radius);
+}
+
+std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept {
+  if (!(X.translation().array().abs() <= kMostCoordinate).all()) return std::nullopt;
+  if (rotation_defect_bound(X.linear()) < kNone) return X;
+  double defect = rotation_defect(X.linear());
+  if (!(defect < kMost) || !is_right_handed(X.linear())) return std::nullopt;
+  Eigen::Isometry3d rigid = X;
+  // Newton's iteration for the nearest rotation squares the defect; two steps are enough.
+  while (!(defect < kNone)) {
+    const Eigen::Matrix3d R = rigid.linear();
+    rigid.linear() = 0.5 * R * (3.0 * Eigen::Matrix3d::Identity() - R.transpose() * R);
+    defect = rotation_defect(rigid.linear());
+  }
+  return rigid;
 }
 
 }  // namespace glissade::geometry

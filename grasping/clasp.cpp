@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include <glissade/contact/certified_bodies.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 #include <glissade/grasping/clasp.h>
 
 #include "clasp/chain_step.h"

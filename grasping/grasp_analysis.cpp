@@ -46,11 +46,6 @@ bool are_tips_of(const TouchingSegments& segments, std::span<const Finger> finge
 
 }  // namespace
 
-std::string_view name_of(GraspType type) {
-  constexpr std::array<std::string_view, 4> kNames{"none", "push", "precision", "power"};
-  return kNames[static_cast<std::size_t>(type)];
-}
-
 std::string_view words_of(GraspLack lack) {
   constexpr std::array<std::string_view, kGraspLacks> kWords{
       "", "a grasp needs thumb and finger, or palm and a middle or outer segment",
@@ -67,7 +62,7 @@ GraspLack Grasp::lack() const {
   return segments.has(Finger::kThumb) ? GraspLack::kFinger : GraspLack::kThumbOrPalm;
 }
 
-Grasp grasp_of(const devices::VisibleHand& hand) {
+Grasp grasp_of(const hands::VisibleHand& hand) {
   return {.type = static_cast<GraspType>(hand.grasp),
           .form = hand.form,
           .segments = TouchingSegments::from_bits(hand.touching)};

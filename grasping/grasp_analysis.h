@@ -12,23 +12,14 @@
 
 #include <Eigen/Core>
 
-#include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/hand_model.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::grasping {
 
-/// The paper's answer. A segment touches if the clasp says so; the thumb's segments count as finger segments too.
-enum class GraspType : std::uint8_t {
-  kNone,       ///< nothing touches
-  kPush,       ///< one segment or the palm alone; or segments without thumb and palm; or palm and inner segments only
-  kPrecision,  ///< segments of the thumb and of another finger, without the palm
-  kPower,      ///< the palm and at least one middle or outer segment
-};
-
-using devices::GraspForm;
-
-std::string_view name_of(GraspType type);
+using hands::GraspForm;
+using hands::GraspType;
 
 /// Why nothing is grasped: what the segments that touch an object lack to hold it.
 enum class GraspLack : std::uint8_t {
@@ -61,7 +52,7 @@ struct Grasp {
 };
 
 /// The grasp of a hand with fingers as the haptic loop tells of it: without the object.
-Grasp grasp_of(const devices::VisibleHand& hand);
+Grasp grasp_of(const hands::VisibleHand& hand);
 
 /// A sentence without a stop, such as "power: the palm and the middle segment of the index touch".
 std::string reason_of(const Grasp& grasp);

@@ -7,10 +7,8 @@
 #include <glissade/base/assert.h>
 #include <glissade/grasping/grasp_simulation.h>
 
-#include "life/finger_rows.h"
 #include "life/grasping_hand.h"
 #include "life/loose_parts.h"
-#include "life/told_hand.h"
 
 namespace glissade::grasping {
 namespace {
@@ -37,6 +35,12 @@ std::vector<contact::RiderChain> chains_of(const std::vector<GraspingHand>& hand
   return chains;
 }
 
+hands::HandActivity activity_of(const GraspingHand& hand) {
+  if (hand.part()) return hands::HandActivity::kHolding;
+  if (hand.is_lost()) return hands::HandActivity::kLost;
+  return hand.is_present() ? hands::HandActivity::kFree : hands::HandActivity::kWaiting;
+}
+
 }  // namespace
 
 class GraspSimulation::Life {
@@ -48,13 +52,14 @@ class GraspSimulation::Life {
         parts_(fixed, parts, rules.sliding, chains_of(hands_, rules.clasp.margin)),
         X_WG_(parts.size(), Eigen::Isometry3d::Identity()),
         loose_parts_(metaphors_of(parts)),
-        answers_(hands.size()) {
-    if (hands.size() > haptics::kMaxHands)
-      throw std::invalid_argument("at most " + std::to_string(haptics::kMaxHands) + " hands can grasp, not " +
+        is_led_(parts.size(), hands.empty() ? 1 : 0),
+        decisions_(hands.size()) {
+    if (hands.size() > hands::kMaxHands)
+      throw std::invalid_argument("at most " + std::to_string(hands::kMaxHands) + " hands can grasp, not " +
                                   std::to_string(hands.size()));
     if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
       throw std::invalid_argument("the direction against gravity must be a unit vector");
-    for (std::size_t p = 0; p < parts.size(); ++p) {
+    for (std::size_t p = 0; p < parts.size() && !hands_.empty(); ++p) {
       if (!parts_.is_scripted(p)) parts_.release(p);
       for (GraspingHand& hand : hands_)
         hand.clasp().place_free_object(p, parts_.result(p).X_WV);
@@ -96,46 +101,36 @@ class GraspSimulation::Life {
     hands_[h].clasp().move_cart(posture);
   }
 
-  void advance(const haptics::Ghosts& ghosts, double milliseconds) {
+  void advance(std::span<const Eigen::Isometry3d> X_WG, std::span<const HandTarget> targets, double milliseconds) {
+    GLISSADE_ASSERT(X_WG.size() == X_WG_.size() && targets.size() == hands_.size());
     for (std::size_t h = 0; h < hands_.size(); ++h) {
-      const haptics::GhostOfHand& ghost = ghosts.hands[h];
-      aim(h,
-          ghost.is_tracked ? std::optional(Posture{ghost.X_WH, {ghost.angles.begin(), ghost.angles.end()}})
-                           : std::nullopt,
-          milliseconds);
-      hold(h, ghost.part < 0 ? std::nullopt : std::optional(static_cast<std::size_t>(ghost.part)));
+      aim(h, targets[h].posture, milliseconds);
+      hold(h, targets[h].part);
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p)
-      X_WG_[p] = ghosts.parts[p].is_held ? ghosts.parts[p].X_WG : loose_parts_.push(p, milliseconds, parts_);
+      X_WG_[p] = is_led_[p] ? X_WG[p] : loose_parts_.push(p, milliseconds, parts_);
     move(milliseconds);
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       if (!hands_[h].is_lost()) decide(h, grasped_part(hands_[h]));
     }
     for (std::size_t p = 0; p < X_WG_.size(); ++p) {
-      if (!ghosts.parts[p].is_held) loose_parts_.look(p, hands_, parts_);  // another hand, without fingers, may hold it
+      if (!is_led_[p]) loose_parts_.look(p, hands_, parts_);  // a hand without fingers may hold it
     }
   }
 
   void take_part(std::size_t p, const Eigen::Isometry3d& X_WG) {
+    is_led_[p] = 1;
     loose_parts_.end_push(p, parts_);
-    const auto number = static_cast<std::int32_t>(p);
-    parts_.grasp(p, X_WG, grip(p, [&](std::size_t h) { return answers_[h].part == number; }));
+    parts_.grasp(p, X_WG, grip(p, [&](std::size_t h) { return decisions_[h].part == p; }));
   }
 
   void leave_part(std::size_t p) {
+    is_led_[p] = 0;
     loose_parts_.end_push(p, parts_);
     parts_.release(p);
   }
 
-  void tell_hands(haptics::ContactSet& set) {
-    for (std::size_t h = 0; h < hands_.size(); ++h) {
-      const GraspingHand& hand = hands_[h];
-      haptics::HandAnswer& answer = answers_[h];
-      tell_grasp(hand, answer.visible);
-      rows_.tell(hand.clasp(), hand.contacts(), static_cast<std::int32_t>(parts_.obstacle_count()), answer);
-      set.hands[h] = answer;
-    }
-  }
+  const HoldDecision& decision(std::size_t h) const { return decisions_[h]; }
 
  private:
   bool is_held(std::size_t part) const {
@@ -246,13 +241,8 @@ class GraspSimulation::Life {
     return true;
   }
 
-  /// Decides for the haptic thread.
   void decide(std::size_t h, std::optional<std::size_t> part) {
-    const std::int32_t number = part ? static_cast<std::int32_t>(*part) : -1;
-    haptics::HandAnswer& answer = answers_[h];
-    if (number == answer.part) return;
-    answer.part = number;
-    ++answer.decision;
+    if (part != decisions_[h].part) decisions_[h] = {part, decisions_[h].number + 1};
   }
 
   /// After another hand has taken hold of a part or let go of it, or is lost or found again. The part approaches its
@@ -293,9 +283,9 @@ class GraspSimulation::Life {
   std::vector<Eigen::Isometry3d> X_WG_;  // of each part
   LooseParts loose_parts_;
   double waited_ms_ = 0.0;  // since the hands moved
-  // In the haptic loop:
-  std::vector<haptics::HandAnswer> answers_;  // for each hand
-  FingerRows rows_;
+  // Where someone else decides what is held:
+  std::vector<char> is_led_;             // whether someone holds the part
+  std::vector<HoldDecision> decisions_;  // for each hand
 };
 
 GraspSimulation::GraspSimulation(const std::vector<contact::Obstacle>& fixed,
@@ -323,7 +313,7 @@ std::size_t GraspSimulation::part_count() const {
   return life_->parts().part_count();
 }
 
-devices::HandActivity GraspSimulation::activity(std::size_t hand) const {
+hands::HandActivity GraspSimulation::activity(std::size_t hand) const {
   return activity_of(life_->hand(hand));
 }
 
@@ -333,6 +323,30 @@ const Posture& GraspSimulation::posture(std::size_t hand) const {
 
 const Clasp& GraspSimulation::clasp(std::size_t hand) const {
   return life_->hand(hand).clasp();
+}
+
+hands::VisibleHand GraspSimulation::visible(std::size_t hand) const {
+  const Posture& at = posture(hand);
+  hands::VisibleHand visible{.activity = activity(hand),
+                             .grasp = grasp(hand).type,
+                             .form = grasp(hand).form,
+                             .touching = grasp(hand).segments.bits(),
+                             .X_WH = at.X_WR};
+  std::copy(at.values.begin(), at.values.end(), visible.angles.begin());
+  return visible;
+}
+
+const std::shared_ptr<const HandModel>& GraspSimulation::model(std::size_t hand) const {
+  return life_->hand(hand).model();
+}
+
+std::span<const LinkContact> GraspSimulation::contacts(std::size_t hand) const {
+  return life_->hand(hand).contacts();
+}
+
+const HoldDecision& GraspSimulation::decision(std::size_t hand) const {
+  GLISSADE_ASSERT(hand < hand_count());
+  return life_->decision(hand);
 }
 
 const Grasp& GraspSimulation::grasp(std::size_t hand) const {
@@ -357,12 +371,9 @@ void GraspSimulation::leave_part(std::size_t part) {
   life_->leave_part(part);
 }
 
-void GraspSimulation::advance(const haptics::Ghosts& ghosts, double milliseconds) {
-  life_->advance(ghosts, milliseconds);
-}
-
-void GraspSimulation::tell_hands(haptics::ContactSet& set) const {
-  life_->tell_hands(set);
+void GraspSimulation::advance(std::span<const Eigen::Isometry3d> X_WG, std::span<const HandTarget> targets,
+                              double milliseconds) {
+  life_->advance(X_WG, targets, milliseconds);
 }
 
 }  // namespace glissade::grasping

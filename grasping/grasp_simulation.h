@@ -15,12 +15,10 @@
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/sliding_rules.h>
-#include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/loop_simulation.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::grasping {
 
@@ -36,8 +34,17 @@ struct GraspRules {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
-/// What the haptic loop needs to know of a hand (`haptics::KernelHand::fingers`).
-haptics::FingerHand finger_hand(const HandModel& hand);
+/// Where a hand with fingers is to go, and what it holds, where someone else decides that.
+struct HandTarget {
+  std::optional<Posture> posture{};   ///< tracked; none while the tracking is lost
+  std::optional<std::size_t> part{};  ///< number of the part in the hand
+};
+
+/// What a hand is to hold, for those who decide by it.
+struct HoldDecision {
+  std::optional<std::size_t> part{};
+  std::int64_t number = 0;  ///< increases whenever the simulation decides on another part
+};
 
 /// Loose parts stand still where they were left; nothing falls. Deterministic. Not thread-safe.
 ///
@@ -50,51 +57,62 @@ haptics::FingerHand finger_hand(const HandModel& hand);
 /// far as obstacles let it, and at most half again as fast as the fastest segment that pushes it (beside the gap of
 /// contacts, up to 20 µm a call).
 ///
-/// In the haptic loop (`haptics::HapticServer`), the haptic thread has the ghosts of parts in hands, and this
-/// simulation decides who takes hold. A decision takes effect once the haptic thread has followed it. Then a part is
-/// where the tracked palm, not the visible one, would have it: nothing moves when a hand takes hold.
-class GraspSimulation final : public haptics::LoopSimulation {
+/// Without hands, whoever calls leads the parts, which are held from the start: this is `contact::MultiPartSliding`.
+///
+/// Someone else may decide what is held, such as the haptic thread of a server, which has the ghosts of parts in hands:
+/// the second `advance`. A `decision` takes effect once that one has followed it. Then a part is where the tracked
+/// palm, not the visible one, would have it: nothing moves when a hand takes hold.
+class GraspSimulation {
  public:
-  /// Parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
+  /// Among hands, parts are loose at the start, unless scripts lead them; scripted parts cannot be held. Throws
   /// std::invalid_argument as `contact::MultiPartSliding` and `Clasp` do, for a hand that is null, for more than
-  /// `haptics::kMaxHands`, and for an `up_W` that is no unit vector (to 1e-6).
+  /// `hands::kMaxHands`, and for an `up_W` that is no unit vector (to 1e-6).
   GraspSimulation(const std::vector<contact::Obstacle>& fixed, const std::vector<contact::HeldPart>& parts,
-                  const std::vector<std::shared_ptr<const HandModel>>& hands, const GraspRules& rules = {});
+                  const std::vector<std::shared_ptr<const HandModel>>& hands = {}, const GraspRules& rules = {});
   GraspSimulation(GraspSimulation&&) noexcept;
   GraspSimulation& operator=(GraspSimulation&&) noexcept;
-  ~GraspSimulation() override;
+  ~GraspSimulation();
 
   /// One target for each hand: the tracked posture, or none while the tracking is lost. `milliseconds` have passed
   /// since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
+  /// The same where someone else decides what is held: a pose X_WG for each part, of which that of a loose part counts
+  /// for nothing, and a target for each hand. Not together with the other `advance`.
+  void advance(std::span<const Eigen::Isometry3d> X_WG, std::span<const HandTarget> targets, double milliseconds);
+  /// Someone takes hold of the part, or anew, with its ghost at X_WG; the last one lets go of it. As
+  /// `contact::MultiPartSliding::grasp` and `contact::MultiPartSliding::release`; the compliance point is where the
+  /// hands that are to hold it touch it, unless it was chosen.
+  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG);
+  void leave_part(std::size_t part);
+
   /// The user's cart carries the hand to this posture, whatever is in the way. The hand lets go of what it holds, and
   /// waits until a target is free. Its posture stays as it was if this one is not finite or has other values than the
-  /// hand. Not in the haptic loop, which has no cart.
+  /// hand.
   void move_cart(std::size_t hand, const Posture& posture);
 
   std::size_t hand_count() const;
   std::size_t part_count() const;
 
   // Of the hand with this number:
-  devices::HandActivity activity(std::size_t hand) const;
+  const std::shared_ptr<const HandModel>& model(std::size_t hand) const;
+  hands::HandActivity activity(std::size_t hand) const;
   /// The visible hand. While it is free or holds a part, it touches nothing, nor did it on its way. A hand that waits,
   /// or is lost while it holds nothing, stays as it was, and is in nobody's way.
   const Posture& posture(std::size_t hand) const;
   const Clasp& clasp(std::size_t hand) const;
+  /// The contacts of the clasp, and those with a held part from which noise has taken a segment by millimetres.
+  std::span<const LinkContact> contacts(std::size_t hand) const;
+  /// Activity, grasp and posture.
+  hands::VisibleHand visible(std::size_t hand) const;
   /// `Grasp::object` numbers the fixed bodies first, then the parts.
   const Grasp& grasp(std::size_t hand) const;
   /// The part that moves with the hand.
   std::optional<std::size_t> held_part(std::size_t hand) const;
+  const HoldDecision& decision(std::size_t hand) const;
 
   /// Poses, lag and contacts of the parts.
-  const contact::MultiPartSliding& parts() const override;
-
-  // In the haptic loop: in one only, and not together with the other `advance`.
-  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override;
-  void leave_part(std::size_t part) override;
-  void advance(const haptics::Ghosts& ghosts, double milliseconds) override;
-  void tell_hands(haptics::ContactSet& set) const override;
+  const contact::MultiPartSliding& parts() const;
 
  private:
   class Life;

@@ -90,7 +90,7 @@ class JointWriter {
   Isometry3d metacarpal_in_link(std::size_t finger) const {
     if (kFingerLinks[finger].metacarpal != kPalmLink) return Isometry3d::Identity();
     const Isometry3d X_PM = metacarpal_pose(finger, hand_.shape.length_m, hand_.shape.breadth_m);
-    return hand_.shape.side == devices::HandSide::kLeft ? mirrored(X_PM) : X_PM;
+    return hand_.shape.side == hands::HandSide::kLeft ? mirrored(X_PM) : X_PM;
   }
 
   const HandModel& hand_;
@@ -101,7 +101,7 @@ class JointWriter {
 /// Reads flex values off the rotations of a hand's links.
 class ValueReader {
  public:
-  ValueReader(const HandModel& hand, devices::JointValues& values) : links_(hand.chain.links()), values_(values) {}
+  ValueReader(const HandModel& hand, hands::JointValues& values) : links_(hand.chain.links()), values_(values) {}
 
   /// The thumb's metacarpal in the palm: two links, the second of which is turned against the first.
   void read_thumb_metacarpal(const Matrix3d& R_PL) {
@@ -155,7 +155,7 @@ class ValueReader {
   }
 
   std::span<const ChainLink> links_;
-  devices::JointValues& values_;
+  hands::JointValues& values_;
 };
 
 /// The rotation of the Adroit hand's thumb metacarpal in its palm: a thumb that points 45 degrees off the fingers,
@@ -207,7 +207,7 @@ HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept
 
 HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,
                      const Isometry3d& X_WAdroit) {
-  if (hand.shape.side != devices::HandSide::kRight)
+  if (hand.shape.side != hands::HandSide::kRight)
     throw std::invalid_argument("The Adroit hand is a right hand, but the hand model is a left one.");
   Matrix3d R_AdroitR;  // x of R is z of Adroit, and so on round
   R_AdroitR << 0, 1, 0, 0, 0, 1, 1, 0, 0;

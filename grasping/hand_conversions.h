@@ -9,15 +9,15 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/devices/glove_device.h>
 #include <glissade/grasping/hand_model.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::grasping {
 
 /// What places a hand: its root, and its flex values in rad.
 struct HandPose {
   Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
-  devices::JointValues values{};
+  hands::JointValues values{};
 };
 
 inline constexpr std::size_t kOpenXrJoints = 26;

@@ -135,9 +135,9 @@ ChainLink mirrored_link(ChainLink link) {
 
 std::vector<FlexValue> flex_values() {
   std::vector<FlexValue> values;
-  for (std::size_t i = 0; i < devices::kHandJointRanges.size(); ++i) {
-    const devices::JointRange& range = devices::kHandJointRanges[i];
-    values.push_back({std::string(devices::kGloveJointNames[i]), range.lower_deg * kDegree, range.upper_deg * kDegree});
+  for (std::size_t i = 0; i < hands::kJointRanges.size(); ++i) {
+    const hands::JointRange& range = hands::kJointRanges[i];
+    values.push_back({std::string(hands::kJointNames[i]), range.lower_deg * kDegree, range.upper_deg * kDegree});
   }
   return values;
 }
@@ -164,14 +164,14 @@ std::array<SegmentMeaning, kHandLinks> meanings() {
 HandModel make_hand(const HandShape& shape) {
   base::require_between("length_m", shape.length_m, 0.05, 0.5);
   base::require_between("breadth_m", shape.breadth_m, 0.3 * shape.length_m, 0.7 * shape.length_m);
-  if (shape.side != devices::HandSide::kLeft && shape.side != devices::HandSide::kRight)
+  if (shape.side != hands::HandSide::kLeft && shape.side != hands::HandSide::kRight)
     throw std::invalid_argument("A hand is a left or a right one, but its side is unknown.");
   std::vector<ChainLink> links = RightHand(shape.length_m, shape.breadth_m).links();
-  if (shape.side == devices::HandSide::kLeft) {
+  if (shape.side == hands::HandSide::kLeft) {
     for (ChainLink& link : links)
       link = mirrored_link(std::move(link));
   }
-  return {shape, KinematicChain(flex_values(), std::move(links)), meanings()};
+  return {shape, KinematicChain(flex_values(), std::move(links)), meanings(), {kWrist, kPalmLink}};
 }
 
 }  // namespace glissade::grasping

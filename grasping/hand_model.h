@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
-#include <glissade/devices/glove_device.h>
 #include <glissade/grasping/kinematic_chain.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::grasping {
 
@@ -19,7 +19,7 @@ namespace glissade::grasping {
 struct HandShape {
   double length_m = 0.183;
   double breadth_m = 0.084;
-  devices::HandSide side = devices::HandSide::kRight;
+  hands::HandSide side = hands::HandSide::kRight;
 };
 
 enum class Finger { kNone, kThumb, kIndex, kMiddle, kRing, kLittle };
@@ -47,7 +47,7 @@ class TouchingSegments {
   bool has_palm() const { return has({Finger::kNone, HandSegment::kPalm}); }
   int count() const;
   bool is_empty() const { return bits_ == 0; }
-  /// As `devices::VisibleHand::touching`.
+  /// As `hands::VisibleHand::touching`.
   std::int32_t bits() const { return static_cast<std::int32_t>(bits_); }
   static TouchingSegments from_bits(std::int32_t bits);
   /// The segment of each bit, the lowest first; `HandSegment::kNone` where no segment has the bit.
@@ -77,7 +77,7 @@ inline constexpr std::size_t kHandLinks = 25;
 /// In the frame L of each segment, the origin is the joint nearer to the wrist, x points along the bone to the next
 /// joint or to the tip, z out of the back (on the outer segments: of the nail), and bending about y is flexion.
 ///
-/// The values are those of `devices::kGloveJointNames`, in that order. All flexions are positive where they close the
+/// The values are those of `hands::kJointNames`, in that order. All flexions are positive where they close the
 /// hand, `thumb_roll` where the thumb comes before the palm, abductions where neighboring fingers spread, `palm_arch`
 /// where ring and little finger come towards the thumb, `wrist_abduction` towards the thumb. With all values 0 the
 /// fingers are straight and parallel. Abductions are relative: the little finger turns with that of the ring finger.
@@ -86,6 +86,9 @@ struct HandModel {
   HandShape shape;
   KinematicChain chain;
   std::array<SegmentMeaning, kHandLinks> meaning;  ///< by link
+  /// The links that turn in the joints of the wrist, from the root on. A part in the hand moves with the last one, the
+  /// palm.
+  std::array<std::size_t, 2> wrist_links;
 };
 
 /// Throws std::invalid_argument for a length outside 0.05 ... 0.5 m, a breadth outside 0.3 ... 0.7 of the length, or a

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <glissade/base/assert.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 #include <glissade/grasping/kinematic_chain.h>
 
 namespace glissade::grasping {

@@ -18,11 +18,9 @@
 #include <glissade/contact/sliding_rules.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::haptics {
-
-/// Maximum number of hands, i.e. devices, of one loop.
-inline constexpr std::size_t kMaxHands = 4;
 
 /// The force of a set is full up to kFullForce after the ghost pose that the set answers, and zero from kForceless on.
 /// In between it fades smoothly.
@@ -64,14 +62,14 @@ struct PartAnswer {
 
 /// The range of each joint of a hand with fingers, rad.
 struct FingerLimits {
-  devices::JointValues lower{};
-  devices::JointValues upper{};
+  hands::JointValues lower{};
+  hands::JointValues upper{};
 };
 
 /// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows
 /// by rates · d, to first order.
 struct FingerRow {
-  devices::JointValues rates{};                   ///< m/rad
+  hands::JointValues rates{};                     ///< m/rad
   double gap = 0.0;                               ///< metres at the visible hand, less the margin; at least 0
   std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: something else
   Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from there to the segment
@@ -85,7 +83,7 @@ inline constexpr std::size_t kMaxFingerRows = 32;
 
 /// The simulation's answer for one hand with fingers: the visible hand, and what it is to hold.
 struct HandAnswer {
-  devices::VisibleHand visible;
+  hands::VisibleHand visible;
   std::int32_t part = -1;      ///< number of the part that the hand is to hold; −1: none
   std::int64_t decision = 0;   ///< increases whenever the simulation decides on another part
   std::int32_t row_count = 0;  ///< rows in use
@@ -104,7 +102,7 @@ struct ContactSet {
   std::int32_t row_count = 0;  ///< rows in use
   /// Part by part; of each, first the pushing contacts, then the others, the nearest first.
   std::array<ContactRow, contact::kMaxParts * kMaxContactRows> row_array{};
-  std::array<HandAnswer, kMaxHands> hands{};  ///< of those with fingers
+  std::array<HandAnswer, hands::kMaxHands> hands{};  ///< of those with fingers
   // To display. A part's contacts with an object that lie in one plane are a patch.
   std::int32_t patch_count = 0;
   std::int32_t patches_left_out = 0;  ///< beyond kHapticPatches
@@ -126,15 +124,15 @@ struct GhostOfPart {
 struct GhostOfHand {
   bool is_tracked = false;  ///< the newest pose and angles came less than 0.1 s ago
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
-  devices::JointValues angles{};  ///< rad
-  std::int32_t part = -1;         ///< number of the part that it holds; −1: none
+  hands::JointValues angles{};  ///< rad
+  std::int32_t part = -1;       ///< number of the part that it holds; −1: none
 };
 
 /// All parts and hands at one time of the haptic clock.
 struct Ghosts {
   std::chrono::nanoseconds time{0};
   std::array<GhostOfPart, contact::kMaxParts> parts{};
-  std::array<GhostOfHand, kMaxHands> hands{};  ///< of those with fingers
+  std::array<GhostOfHand, hands::kMaxHands> hands{};  ///< of those with fingers
 };
 
 /// The state as viewers get it.

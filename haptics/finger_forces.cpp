@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/finger_forces.h>
 
 #include "loop/contact_force.h"
@@ -29,6 +30,20 @@ FingerLimits checked_limits(const FingerLimits& limits) {
 
 }  // namespace
 
+FingerHand finger_hand(const grasping::HandModel& hand) {
+  FingerHand result;
+  const std::span<const grasping::FlexValue> values = hand.chain.values();
+  for (std::size_t v = 0; v < values.size(); ++v) {
+    result.limits.lower[v] = values[v].lower;
+    result.limits.upper[v] = values[v].upper;
+  }
+  for (const std::size_t l : hand.wrist_links) {
+    const grasping::ChainLink& link = hand.chain.links()[l];
+    result.wrist.push_back({link.terms.front().value, link.X_PJ, link.axis_J});
+  }
+  return result;
+}
+
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept {
   const double wanted = device.max_joint_torque / kFullTorque_rad;
@@ -50,8 +65,8 @@ void FingerForces::set_link_delay(std::chrono::nanoseconds delay) noexcept {
   stiffness_ = finger_stiffness(device_, period_, delay);
 }
 
-const devices::JointValues& FingerForces::update(const devices::JointValues& angles, const HandAnswer& hand,
-                                                 std::chrono::nanoseconds age) noexcept {
+const hands::JointValues& FingerForces::update(const hands::JointValues& angles, const HandAnswer& hand,
+                                               std::chrono::nanoseconds age) noexcept {
   torques_.fill(0.0);
   const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
   if (hand.row_count == 0 || !is_finite) return torques_;
@@ -69,14 +84,14 @@ const devices::JointValues& FingerForces::update(const devices::JointValues& ang
   return torques_;
 }
 
-void deepen(const FingerRow& row, const devices::JointValues& lags, devices::JointValues& depths) noexcept {
+void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept {
   double depth = -row.gap;
   for (std::size_t j = 0; j < lags.size(); ++j)
     depth -= row.rates[j] * lags[j];
   if (depth <= 0.0) return;
   // Of these joints, the lag closes the gap. By the least squares they go back by `multiplier` times their arm, but to
   // the visible hand at most.
-  std::array<std::size_t, devices::kGloveJoints> closing{};
+  std::array<std::size_t, hands::kJoints> closing{};
   std::size_t count = 0;
   double squares = 0.0;
   const auto arm = [&](std::size_t j) { return lags[j] > 0.0 ? -row.rates[j] : row.rates[j]; };

@@ -2,6 +2,7 @@
 
 /// What the fingers in a glove feel: at each joint a spring that holds it where an object stops the visible hand.
 
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <vector>
@@ -11,6 +12,11 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
+
+namespace glissade::grasping {
+class GraspSimulation;
+struct HandModel;
+}  // namespace glissade::grasping
 
 namespace glissade::haptics {
 
@@ -27,6 +33,9 @@ struct FingerHand {
   FingerLimits limits;
   std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the frame of the last one
 };
+
+/// The limits and the wrist of a hand of the simulation.
+FingerHand finger_hand(const grasping::HandModel& hand);
 
 /// The stiffness (Nm/rad) of the spring at each joint of a glove. It reaches `max_joint_torque` 0.8 degrees deep, so
 /// that a finger which the wearer presses with less stops within this angle. Where that is more than the glove can
@@ -45,7 +54,7 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
 /// stiffer than each joint alone: joints that share a contact do not add up. (Less where an arm is shorter than 2 mm.
 /// Of several contacts a joint takes the greatest depth, so n joints may be stiffer by (1 + √n) / 2.) Real-time safe:
 /// O(joints²) at worst.
-void deepen(const FingerRow& row, const devices::JointValues& lags, devices::JointValues& depths) noexcept;
+void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
 /// Torques for the joints of a glove whose hand clasps something. The joints whose own motion, from the visible hand's
 /// posture to the glove's, goes deeper into a contact are pushed back by springs, as far as they together have to go to
@@ -77,17 +86,39 @@ class FingerForces {
   /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full where the
   /// answer is up to kFullForce old, and zero from kForceless on. Zero for angles that are not finite. Cost: O(rows ·
   /// joints), 0.05 µs a row.
-  const devices::JointValues& update(const devices::JointValues& angles, const HandAnswer& hand,
-                                     std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
+  const hands::JointValues& update(const hands::JointValues& angles, const HandAnswer& hand,
+                                   std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
 
  private:
   FingerLimits limits_;
   devices::DeviceDescriptor device_;
   std::chrono::nanoseconds period_;
   double stiffness_;
-  devices::JointValues lags_{};    // rad, from the visible hand to the glove
-  devices::JointValues depths_{};  // rad, by which the lag of a joint goes into contacts
-  devices::JointValues torques_{};
+  hands::JointValues lags_{};    // rad, from the visible hand to the glove
+  hands::JointValues depths_{};  // rad, by which the lag of a joint goes into contacts
+  hands::JointValues torques_{};
+};
+
+/// What `FingerForces` has to know of a hand of a simulation. Allocates.
+HandAnswer answer_of(const grasping::GraspSimulation& simulation, std::size_t hand);
+
+/// Thumb, index, middle, ring and little finger.
+inline constexpr std::size_t kFingers = 5;
+
+/// How hard the tips of a hand's fingers press, for a wearer whose fingers are at their targets. The springs of the
+/// glove give the torques of the joints. The forces of the contacts are those, none of which pulls, whose torques come
+/// nearest to them. The load of a held part is not in them. Not thread-safe.
+class FingertipForces {
+ public:
+  /// Throws as `FingerForces` does.
+  FingertipForces(const FingerLimits& limits, const devices::DeviceDescriptor& device) : springs_(limits, device) {}
+
+  /// N, for each finger the sum of the contacts of its last segment. `targets` are the angles (rad) to which the wearer
+  /// closes the hand. Cost: O(rows · joints), 0.2 ms at most.
+  std::array<double, kFingers> update(const hands::JointValues& targets, const HandAnswer& hand);
+
+ private:
+  FingerForces springs_;
 };
 
 }  // namespace glissade::haptics

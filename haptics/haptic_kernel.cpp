@@ -115,7 +115,7 @@ struct HapticKernel::Hand {
 HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                            std::chrono::nanoseconds period)
     : parts_(std::move(parts)), period_(period) {
-  check_count(hands.size(), kMaxHands, "hands");
+  check_count(hands.size(), hands::kMaxHands, "hands");
   check_count(parts_.size(), contact::kMaxParts, "parts");
   std::vector<std::array<contact::CouplingStiffness, contact::kMaxParts>> stiffness;
   for (const KernelHand& hand : hands) {
@@ -202,7 +202,7 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   GLISSADE_ASSERT(states.size() == hands_.size());
   const ContactSet& set = usable(newest);
   const double dt = seconds_since_last_tick(now);
-  std::array<HandPose, kMaxHands> poses;
+  std::array<HandPose, hands::kMaxHands> poses;
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] == nullptr) continue;
     // Judged before the pose can move anything that another hand feels.

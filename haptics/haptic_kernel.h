@@ -69,7 +69,7 @@ struct HandTick {
 /// The outcome of one tick. Entries beyond the number of parts and hands are not used.
 struct HapticTick {
   Ghosts ghosts;
-  std::array<HandTick, kMaxHands> hands{};
+  std::array<HandTick, hands::kMaxHands> hands{};
 };
 
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
@@ -80,8 +80,8 @@ class HapticKernel {
   /// the usual time between two ticks. If the simulation is stiffer than the device allows, the contact forces that the
   /// simulation reports differ from the force on the hand. To avoid this, construct the simulation with the stiffness
   /// that `coupling_for` returns. Throws as `coupling_for` does, and std::invalid_argument for no hands, no parts, more
-  /// than kMaxHands or kMaxParts, for a part to hold that is scripted or does not exist, for a hand with fingers that
-  /// is given a part, for limits of fingers that are no range, and for joints of a wrist that are none.
+  /// than hands::kMaxHands or kMaxParts, for a part to hold that is scripted or does not exist, for a hand with fingers
+  /// that is given a part, for limits of fingers that are no range, and for joints of a wrist that are none.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();

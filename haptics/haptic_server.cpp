@@ -5,7 +5,6 @@
 #include <sys/resource.h>
 
 #include <glissade/haptics/haptic_server.h>
-#include <glissade/haptics/loop_simulation.h>
 
 #include "loop/answer.h"
 #include "loop/kernel_hands.h"
@@ -33,30 +32,30 @@ std::int64_t page_faults_of_this_thread() noexcept {
 
 }  // namespace
 
-HapticServer::HapticServer(const std::vector<HandOfServer>& hands, SimulationInLoop simulation, realtime::Clock& clock,
-                           Sink sink, const HapticServerOptions& options)
-    : clock_(clock),
-      sink_(std::move(sink)),
-      options_(options),
-      kernel_(kernel_parts(simulation->parts()), kernel_hands(hands), options.period),
-      answerer_(std::make_unique<Answerer>(std::move(simulation))) {
-  validate_tick_period(options.period);
-  if (!sink_) throw std::invalid_argument("a haptic server needs a sink for its states, not an empty function");
+HapticServer::HapticServer(const std::vector<HandOfServer>& hands, grasping::GraspSimulation& simulation,
+                           HapticServerOptions options)
+    : options_(std::move(options)),
+      clock_(options_.clock != nullptr ? *options_.clock : steady_clock_),
+      kernel_(kernel_parts(simulation.parts()), kernel_hands(hands, simulation), options_.period),
+      answerer_(std::make_unique<Answerer>(simulation)) {
+  validate_tick_period(options_.period);
   for (const HandOfServer& hand : hands)
     devices_.push_back(hand.device);
   record_.hand_count = static_cast<std::int32_t>(hands.size());
   sets_.publish(answerer_->at_start());
   simulation_thread_ = std::make_unique<realtime::PeriodicThread>(
-      clock,
+      clock_,
       realtime::PeriodicThreadOptions{.period = kTickPeriod,
                                       .fifo_priority = realtime::kSimulationPriority,
                                       .fifo_share = realtime::kSimulationShare,
                                       .name = "simulation"},
       [this](const realtime::PeriodicTick&) { return simulation_tick(); });
   haptic_thread_ = std::make_unique<realtime::PeriodicThread>(
-      clock,
-      realtime::PeriodicThreadOptions{
-          .period = options.period, .fifo_priority = realtime::kHapticPriority, .spin = options.spin, .name = "haptic"},
+      clock_,
+      realtime::PeriodicThreadOptions{.period = options_.period,
+                                      .fifo_priority = realtime::kHapticPriority,
+                                      .spin = options_.spin,
+                                      .name = "haptic"},
       [this](const realtime::PeriodicTick& timing) { return haptic_tick(timing); });
 }
 
@@ -114,7 +113,7 @@ void HapticServer::report() noexcept {
   const bool any_unsolved =
       std::any_of(tick.hands.begin(), tick.hands.end(), [](const HandTick& hand) { return hand.is_unsolved; });
   statistics_.unsolved_ticks += any_unsolved ? 1 : 0;
-  if (!sink_failed_) sink_failed_ = !guarded([&] { sink_(record_.state); });
+  if (options_.sink && !sink_failed_) sink_failed_ = !guarded([&] { options_.sink(record_.state); });
   ticks_.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -124,7 +123,7 @@ bool HapticServer::go_on_fading() noexcept {
   for (std::size_t h = 0; h < devices_.size(); ++h) {
     const devices::GloveCommand& command = record_.tick.hands[h].command.values();
     const bool is_at_rest =
-        command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0) && command.joint_torques == devices::JointValues{};
+        command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0) && command.joint_torques == hands::JointValues{};
     const std::chrono::nanoseconds fading = record_.time - *fading_since_;
     goes_on = goes_on || (!is_at_rest && fading < longest_fade(devices_[h]->descriptor()));
   }
@@ -166,6 +165,15 @@ void HapticServer::answer_newest_ghosts() {
   if (options_.observer != nullptr) options_.observer->after_answer(answer_);
   sets_.publish(answer_.set);
   statistics_.simulation.record(clock_.now() - start);
+}
+
+void HapticServer::run_for(std::chrono::nanoseconds longest) {
+  constexpr std::chrono::milliseconds kLook{10};
+  const std::chrono::nanoseconds start = clock_.now();
+  while (!is_done() && !has_failed() && clock_.now() - start < longest)
+    clock_.sleep_until(clock_.now() + kLook);
+  stop();
+  if (has_failed()) throw std::runtime_error(failure());
 }
 
 void HapticServer::stop() {

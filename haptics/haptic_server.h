@@ -20,7 +20,6 @@
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/latency_histogram.h>
@@ -28,9 +27,18 @@
 #include <glissade/realtime/spsc_ring.h>
 #include <glissade/realtime/triple_buffer.h>
 
+namespace glissade::grasping {
+class GraspSimulation;
+}
+
 namespace glissade::haptics {
 
 class Answerer;
+
+/// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
+/// real-time safe. After an exception from it the force fades, as after one of the simulation, and it is called no
+/// more.
+using StateSink = std::function<void(const devices::HapticState&)>;
 
 struct HapticServerOptions {
   /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on it: all rates
@@ -42,14 +50,17 @@ struct HapticServerOptions {
   /// Time before each deadline for which the haptic thread reads the clock instead of sleeping, at most half of the
   /// period: its ticks start on time, and it occupies a processor so much longer.
   std::chrono::nanoseconds spin{0};
+  StateSink sink{};                  ///< may be empty
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
+  realtime::Clock* clock = nullptr;  ///< null: the steady clock of the system; must outlive the server
 };
 
-/// A device of the server, and the part that its hand grasps at the first state.
+/// A device of the server. The first devices lead the hands of the simulation, which take hold with their fingers.
 struct HandOfServer {
   devices::GloveDevice* device = nullptr;
-  std::optional<std::size_t> part = 0;  ///< number of the part in the simulation; none: `HapticServer::grasp` follows
-  std::optional<FingerHand> fingers{};  ///< as in `KernelHand`; then there is no part
+  /// Of a hand without fingers: number of the part that it grasps at the first state; none: `HapticServer::grasp`
+  /// follows.
+  std::optional<std::size_t> part = 0;
 };
 
 /// Measurements of the server. Complete after `stop`.
@@ -66,18 +77,13 @@ struct HapticServerStatistics {
 /// the end of `stop`, the devices and `simulation` belong to the server's threads.
 class HapticServer {
  public:
-  /// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
-  /// real-time safe. After an exception from it the force fades, as after one of the simulation, and it is called no
-  /// more.
-  using Sink = std::function<void(const devices::HapticState&)>;
-
   /// Starts both threads. What is passed must outlive the server. A hand grasps its part when the first state of its
   /// device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and are
   /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
-  /// simulation. Throws std::invalid_argument for a null device, an empty sink or a period out of bounds, and as the
-  /// constructors of `HapticKernel` and `realtime::PeriodicThread` do.
-  HapticServer(const std::vector<HandOfServer>& hands, SimulationInLoop simulation, realtime::Clock& clock, Sink sink,
-               const HapticServerOptions& options = {});
+  /// simulation, which should have `contact::real_time_rules`. Throws std::invalid_argument for a null device or a
+  /// period out of bounds, and as the constructors of `HapticKernel` and `realtime::PeriodicThread` do.
+  HapticServer(const std::vector<HandOfServer>& hands, grasping::GraspSimulation& simulation,
+               HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer();
@@ -115,6 +121,10 @@ class HapticServer {
   /// What the system granted to the haptic thread. Any thread.
   const realtime::ThreadScheduling& scheduling() const noexcept { return haptic_thread_->scheduling(); }
 
+  /// Blocks until the server is done or has failed, or for `longest`; then stops. Throws std::runtime_error with the
+  /// message of `failure` if it has failed.
+  void run_for(std::chrono::nanoseconds longest = std::chrono::nanoseconds::max());
+
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.
   void stop();
 
@@ -133,9 +143,9 @@ class HapticServer {
   void fail(std::string_view message) noexcept;
   void answer_newest_ghosts();
 
-  realtime::Clock& clock_;
-  Sink sink_;
   HapticServerOptions options_;
+  realtime::SteadyClock steady_clock_;
+  realtime::Clock& clock_;
 
   // Haptic thread only.
   std::vector<devices::GloveDevice*> devices_;

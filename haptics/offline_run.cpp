@@ -1,6 +1,5 @@
 #include <stdexcept>
 
-#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
 #include "loop/answer.h"
@@ -9,11 +8,11 @@
 
 namespace glissade::haptics {
 
-void run_offline(const std::vector<HandOffline>& hands, const SimulationInLoop& simulation, std::int64_t ticks,
+void run_offline(const std::vector<HandOffline>& hands, grasping::GraspSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options) {
   validate_tick_period(options.period);
   if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
-  HapticKernel kernel(kernel_parts(simulation->parts()), kernel_hands(hands), options.period);
+  HapticKernel kernel(kernel_parts(simulation.parts()), kernel_hands(hands, simulation), options.period);
   Answerer answerer(simulation);
   TickRecord record;
   record.hand_count = static_cast<std::int32_t>(hands.size());

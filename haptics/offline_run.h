@@ -17,19 +17,21 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/recording.h>
+
+namespace glissade::grasping {
+class GraspSimulation;
+}
 
 namespace glissade::haptics {
 
 class Answerer;
 class AnswersAhead;
 
-/// A simulated glove of an offline run, and the part that its hand grasps at the first tick.
+/// A simulated glove of an offline run, as `HandOfServer`: the part that its hand grasps at the first tick.
 struct HandOffline {
   devices::SimulatedGlove* device = nullptr;
-  std::optional<std::size_t> part = 0;  ///< number of the part in the simulation
-  std::optional<FingerHand> fingers{};  ///< as in `KernelHand`; then there is no part
+  std::optional<std::size_t> part = 0;
 };
 
 struct OfflineRunOptions {
@@ -43,7 +45,7 @@ struct OfflineRunOptions {
 /// poses of the previous tick. Hands, parts and couplings are as in `HapticServer`. Throws std::invalid_argument for a
 /// null glove, an empty sink or a period out of the bounds of `validate_tick_period`, and as the constructor of
 /// `HapticKernel` does.
-void run_offline(const std::vector<HandOffline>& hands, const SimulationInLoop& simulation, std::int64_t ticks,
+void run_offline(const std::vector<HandOffline>& hands, grasping::GraspSimulation& simulation, std::int64_t ticks,
                  const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options = {});
 
 /// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes. The
@@ -51,9 +53,10 @@ void run_offline(const std::vector<HandOffline>& hands, const SimulationInLoop& 
 /// thread-safe.
 class Replay {
  public:
-  /// A loop as the recorded one. Scene, rules, hands, period and `head` must be those of the recording. The simulation
-  /// must outlive this object, and must not be used by others. Throws as the constructor of `HapticKernel` does.
-  Replay(const SimulationInLoop& simulation, const std::vector<KernelHand>& hands, std::chrono::nanoseconds period,
+  /// A loop as the recorded one. Scene, rules, devices and parts of `hands`, period and `head` must be those of the
+  /// recording; the fingers of hands are those of the simulation. The simulation must outlive this object, and must not
+  /// be used by others. Throws as the constructor of `HapticKernel` does.
+  Replay(grasping::GraspSimulation& simulation, std::vector<KernelHand> hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();
   Replay(const Replay&) = delete;

@@ -67,8 +67,8 @@ struct TickRecord {
   std::chrono::nanoseconds last_duration{0};  ///< `duration` of the tick before
   bool is_stopped = false;                    ///< the force of all hands was stopped before this tick
   std::int32_t hand_count = 0;                ///< entries in use in arrays of hands
-  std::array<bool, kMaxHands> has_state{};
-  std::array<devices::GloveState, kMaxHands> states{};  ///< the newest one of each hand that has one
+  std::array<bool, hands::kMaxHands> has_state{};
+  std::array<devices::GloveState, hands::kMaxHands> states{};  ///< the newest one of each hand that has one
   HoldRequests requests;
   std::int64_t set_sequence = 0;  ///< `ContactSet::sequence` of the newest set
   std::int32_t part_count = 0;    ///< `ContactSet::part_count`
@@ -144,7 +144,7 @@ class RecordedEvents {
 
  private:
   RecordingHead head_;
-  std::array<std::int64_t, kMaxHands> newest_{};  // sequence of the last state of each glove, plus 1
+  std::array<std::int64_t, hands::kMaxHands> newest_{};  // sequence of the last state of each glove, plus 1
   std::optional<std::chrono::nanoseconds> announced_;
 };
 

@@ -100,11 +100,11 @@ void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d&
 /// they lack. The page has none of its own.
 nlohmann::json grasp_words() {
   nlohmann::json kinds = nlohmann::json::array();
-  for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
-    kinds.push_back(devices::name_of(static_cast<devices::GraspKind>(kind)));
+  for (std::int32_t kind = 0; kind < hands::kGraspTypes; ++kind)
+    kinds.push_back(hands::name_of(static_cast<hands::GraspType>(kind)));
   nlohmann::json forms = nlohmann::json::array();
-  for (std::int32_t form = 0; form < devices::kGraspForms; ++form)
-    forms.push_back(devices::name_of(static_cast<devices::GraspForm>(form)));
+  for (std::int32_t form = 0; form < hands::kGraspForms; ++form)
+    forms.push_back(hands::name_of(static_cast<hands::GraspForm>(form)));
   nlohmann::json segments = nlohmann::json::array();
   for (const grasping::SegmentMeaning& segment : grasping::TouchingSegments::meaning_of_bits())
     segments.push_back(segment.segment == grasping::HandSegment::kNone ? "" : grasping::words_of(segment));

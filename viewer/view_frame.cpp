@@ -46,7 +46,7 @@ double microseconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double, std::micro>(time).count();
 }
 
-double greatest(const devices::JointValues& torques) {
+double greatest(const hands::JointValues& torques) {
   double most = 0.0;
   for (const double torque : torques)
     most = std::max(most, std::abs(torque));
@@ -115,7 +115,7 @@ std::string FrameMaker::make() {
     frame.add(hand.visible.touching);  // below 2^24, so that single precision has it exactly
     frame.add(static_cast<std::int32_t>(grasping::grasp_of(hand.visible).lack()));
     frame.add(greatest(hand.joint_torques));
-    const bool is_shown = h < models_.size() && models_[h] && devices::is_present(hand.visible.activity);
+    const bool is_shown = h < models_.size() && models_[h] && hands::is_present(hand.visible.activity);
     if (!is_shown) {
       frame.add(0);
       continue;

@@ -28,7 +28,7 @@ namespace glissade::viewer {
 /// the number of contacts that push. For each hand: the number of the part that it holds or −1; force in N; torque in
 /// Nm; the greatest force; the share of the contacts' force; 1 if they were unsolved or else 0; the reasons of the
 /// server and those of the glove, as bits; the energy in J; activity; grasp, its form, and the segments that touch as
-/// `devices::VisibleHand` has them, what they lack to hold (`grasping::GraspLack`); the greatest torque on a joint in
+/// `hands::VisibleHand` has them, what they lack to hold (`grasping::GraspLack`); the greatest torque on a joint in
 /// Nm; the number of its links, 0 where it is not present, and the pose of each. For each contact: the part; x, y, z in
 /// the part's frame V in metres; the normal in world axes. For each patch: the part; the number of contacts; x, y, z
 /// and the normal as for a contact; the extent in metres.

@@ -18,10 +18,10 @@ namespace glissade::apps {
 
 namespace {
 
-using devices::JointValues;
 using Eigen::Isometry3d;
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
+using hands::JointValues;
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
@@ -50,8 +50,8 @@ constexpr std::array<Thing, 10> kThings{{{"ball", {0, 0}, true, 0, 33, 33},
 JointValues bent(const std::array<double, 4>& thumb, const std::array<double, 3>& finger) {
   JointValues angles{};
   const auto set = [&](std::string_view joint, double degrees) {
-    const auto place = std::find(devices::kGloveJointNames.begin(), devices::kGloveJointNames.end(), joint);
-    angles[static_cast<std::size_t>(place - devices::kGloveJointNames.begin())] = degrees * kDegree;
+    const auto place = std::find(hands::kJointNames.begin(), hands::kJointNames.end(), joint);
+    angles[static_cast<std::size_t>(place - hands::kJointNames.begin())] = degrees * kDegree;
   };
   constexpr std::array<std::string_view, 4> kThumb{"thumb_roll", "thumb_mcp", "thumb_ip", "thumb_index_abduction"};
   for (std::size_t i = 0; i < kThumb.size(); ++i)

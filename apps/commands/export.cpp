@@ -65,7 +65,8 @@ viewer::ViewScene scene_at(std::optional<std::chrono::nanoseconds> time, const s
     warn(sentence);
   viewer::ViewScene scene{.title = file.source};
   for (const SceneObject& object : file.objects) {
-    viewer::ViewObject& shown = scene.objects.emplace_back(viewer::ViewObject{object.name, object.mesh, object.X_WB});
+    viewer::ViewObject& shown =
+        scene.objects.emplace_back(viewer::ViewObject{object.name, object.mesh.shared(), object.X_WB});
     if (object.motion && time) shown.X_WB = object.motion->script_X_WB.pose_at(*time);
   }
   return scene;

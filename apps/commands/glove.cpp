@@ -130,7 +130,7 @@ int run(const GloveOptions& options) {
   devices::SimulatedGloveParameters parameters = script.with_grip({});
   parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::duration<double, std::milli>(options.frozen_ms));
-  const devices::HandSide side = options.side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight;
+  const hands::HandSide side = options.side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
   devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, parameters), clock,
                                        {.device = options.device, .side = side},
                                        [&](const devices::GloveState& state, const devices::SafeCommand& command) {

@@ -17,7 +17,6 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
-#include <glissade/apps/commands/fingertip_forces.h>
 #include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/csv.h>
@@ -33,17 +32,19 @@
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/contact/spring.h>
+#include <glissade/devices/simulated_glove.h>
 #include <glissade/grasping/grasp_simulation.h>
+#include <glissade/haptics/finger_forces.h>
 
 namespace glissade::apps {
 
 namespace {
 
 constexpr std::chrono::milliseconds kTick{1};
+constexpr std::array<std::string_view, haptics::kFingers> kFingerNames{"thumb", "index", "middle", "ring", "little"};
 
 constexpr const char* kGraspDescription =
     "Let hands grasp and move the objects of a scene, offline and deterministically";
@@ -126,12 +127,11 @@ class GraspTables {
               const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, const GraspOptions& options)
       : scene_(scene), simulation_(simulation), hands_(hands), hand_rows_(options.out, hand_columns()) {
     for (const std::shared_ptr<const grasping::HandModel>& hand : hands)
-      fingertips_.emplace_back(*hand);
+      fingertips_.emplace_back(haptics::finger_hand(*hand).limits, devices::simulated_glove_descriptor());
     if (!options.objects.empty()) object_rows_ = std::make_unique<CsvWriter>(options.objects, object_columns());
   }
 
   void write(double time_s, const std::vector<std::optional<grasping::Posture>>& targets) {
-    simulation_.tell_hands(*answers_);
     for (std::size_t h = 0; h < simulation_.hand_count(); ++h)
       write_hand(time_s, h, *targets[h]);
     if (object_rows_ == nullptr) return;
@@ -150,7 +150,7 @@ class GraspTables {
     const grasping::Grasp& grasp = simulation_.grasp(h);
     hand_rows_.add(time_s)
         .add(static_cast<std::int64_t>(h))
-        .add(devices::name_of(simulation_.activity(h)))
+        .add(hands::name_of(simulation_.activity(h)))
         .add(posture.X_WR);
     for (const double value : posture.values)
       hand_rows_.add(value);
@@ -169,10 +169,11 @@ class GraspTables {
                                             : simulation_.parts().result(body - scene_.obstacles.size()).X_WV;
     }
     hand_rows_.add(X_WO);
-    devices::JointValues angles;
+    hands::JointValues angles;
     std::copy(target.values.begin(), target.values.end(), angles.begin());
-    const std::array<double, kFingers> forces = fingertips_[h].update(angles, answers_->hands[h]);
-    for (std::size_t finger = 0; finger < kFingers; ++finger) {
+    const std::array<double, haptics::kFingers> forces =
+        fingertips_[h].update(angles, haptics::answer_of(simulation_, h));
+    for (std::size_t finger = 0; finger < haptics::kFingers; ++finger) {
       const std::string tip = std::string(kFingerNames[finger]) + "_distal";
       const bool touches = std::find(touching.begin(), touching.end(), tip) != touching.end();
       hand_rows_.add(touches ? forces[finger] : 0.0);
@@ -193,7 +194,7 @@ class GraspTables {
   void write_object(double time_s, std::size_t p) {
     const contact::MultiPartSliding& parts = simulation_.parts();
     const contact::SlidingResult& result = parts.result(p);
-    const contact::Wrench wrench = contact_wrench(parts.result(p), parts.p_Vref(p));
+    const contact::Wrench wrench = contact::contact_wrench(parts.result(p), parts.p_Vref(p));
     object_rows_->add(time_s).add(scene_.body_names[scene_.obstacles.size() + p]).add(result.X_WV);
     object_rows_->add(contact::name_of(result.state));
     // Adding zero turns a negative zero into the plain one.
@@ -207,8 +208,7 @@ class GraspTables {
   const HapticScene& scene_;
   const grasping::GraspSimulation& simulation_;
   const std::vector<std::shared_ptr<const grasping::HandModel>>& hands_;
-  std::vector<FingertipForces> fingertips_;
-  std::unique_ptr<haptics::ContactSet> answers_ = std::make_unique<haptics::ContactSet>();  // large
+  std::vector<haptics::FingertipForces> fingertips_;
   CsvWriter hand_rows_;
   std::unique_ptr<CsvWriter> object_rows_;
 };

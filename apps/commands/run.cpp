@@ -105,9 +105,9 @@ std::vector<SessionHand> hands_of(const RunOptions& options, const HapticScene& 
     if (options.fingers) hand = {.device = device, .part = std::nullopt, .fingers = grasping::HandShape{}};
     hands.push_back(hand);
   }
-  if (hands.size() > haptics::kMaxHands) {
+  if (hands.size() > hands::kMaxHands) {
     throw std::invalid_argument("--device: " + std::to_string(hands.size()) + " gloves are too many; at most " +
-                                std::to_string(haptics::kMaxHands) + " can be used");
+                                std::to_string(hands::kMaxHands) + " can be used");
   }
   for (const std::string& hold : options.holds) {
     const std::size_t equals = hold.find('=');

@@ -36,13 +36,14 @@ std::string in_metres(double scale, const std::string& option) {
 /// What is doubtful in the size of an object alone; empty if nothing is.
 std::string doubt_of(const SceneObject& object) {
   const double size = size_of(*object.mesh);
+  const std::optional<double> file_scale = object.mesh.file_scale();
   const bool is_too_large = size > (object.movable ? kDoubtfulPart_m : kDoubtful_m);
-  if (object.file_scale && is_too_large) return across(size) + in_millimetres(*object.file_scale, "scale: ");
-  if (object.file_scale && is_too_small(size, *object.file_scale)) {
-    return across(size) + in_metres(*object.file_scale, "scale: ");
+  if (file_scale && is_too_large) return across(size) + in_millimetres(*file_scale, "scale: ");
+  if (file_scale && is_too_small(size, *file_scale)) {
+    return across(size) + in_metres(*file_scale, "scale: ");
   }
   // A large shape that stays where it is, such as a floor, is meant to be large.
-  if (!object.file_scale && object.movable && is_too_large) {
+  if (!file_scale && object.movable && is_too_large) {
     return across(size) + ", too large for a hand: is its shape in metres?";
   }
   return "";

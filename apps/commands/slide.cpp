@@ -279,14 +279,15 @@ int run(SlideOptions options) {
     }
   }
   const Scene file = open_scene(options.scene);
+  const SceneObject& part = find_object(file, options.part);
   const HapticScene scene = make_haptic_scene(file, {options.part});
   check_options.sliding.stiffness = stiffness_of(options.sliding, scene.parts.front().part_V->radius());
   if (check_options.method == reference::SlidingMethod::kPaper && !scene.moving.empty()) {
     throw std::invalid_argument("--method: paper does not support objects that move on their own, such as " +
                                 scene.moving.front().name);
   }
-  if (!file.find(options.part).movable) {
-    throw std::invalid_argument("--part: the object " + in_quotes(options.part) + " in " + scene.source +
+  if (!part.movable) {
+    throw std::invalid_argument("--part: the object " + in_quotes(options.part) + " in " + file.source +
                                 " is not movable; a part needs 'movable: true'");
   }
   if (!options.tables.moving.empty() && scene.moving.empty()) {

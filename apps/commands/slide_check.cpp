@@ -17,7 +17,6 @@
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/clearance_curve.h>
-#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/contact/spring.h>
 #include <glissade/reference/sliding_method.h>
 
@@ -114,7 +113,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
-    const contact::Wrench wrench = contact_wrench(sliding->result(), sliding->part().p_Vref());
+    const contact::Wrench wrench = contact::contact_wrench(sliding->result(), sliding->part().p_Vref());
     check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
     check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
     contact_ticks += sliding->result().pushing > 0 ? 1 : 0;

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include <glissade/apps/commands/slide_tables.h>
-#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/contact/spring.h>
 #include <glissade/reference/sliding_method.h>
 
@@ -25,7 +24,7 @@ std::vector<std::string> moving_columns() {
 void add_motion_row(CsvWriter& out, double time_s, reference::SlidingMethod method,
                     const reference::SlidingSimulation& sliding) {
   const contact::SlidingResult& result = sliding.result();
-  const contact::Wrench wrench = contact_wrench(sliding.result(), sliding.part().p_Vref());
+  const contact::Wrench wrench = contact::contact_wrench(sliding.result(), sliding.part().p_Vref());
   out.add(time_s).add(result.X_WG).add(result.X_WV);
   // Adding zero turns a negative zero into the plain one.
   for (int i = 0; i < 3; ++i)

@@ -37,7 +37,7 @@ std::vector<std::string> trajectory_columns() {
 
 std::vector<std::string> joint_columns() {
   std::vector<std::string> columns;
-  for (const std::string_view name : devices::kGloveJointNames)
+  for (const std::string_view name : hands::kJointNames)
     columns.push_back(std::string(name) + "_rad");
   return columns;
 }

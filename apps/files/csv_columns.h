@@ -25,7 +25,7 @@ std::vector<std::string> with_angles(const std::vector<std::string>& columns);
 /// The columns of a trajectory: time and pose.
 std::vector<std::string> trajectory_columns();
 
-/// The columns of a hand's joints: `devices::kGloveJointNames` with the ending `_rad`.
+/// The columns of a hand's joints: `hands::kJointNames` with the ending `_rad`.
 std::vector<std::string> joint_columns();
 
 /// The columns of a hand trajectory: those of a trajectory and of the joints.

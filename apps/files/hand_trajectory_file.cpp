@@ -13,7 +13,7 @@
 namespace glissade::apps {
 
 grasping::Posture HandTrajectory::posture_at(std::chrono::nanoseconds time) const {
-  const devices::JointValues values = devices::angles_at(values_, time);
+  const hands::JointValues values = devices::angles_at(values_, time);
   return {X_WR_.pose_at(time), {values.begin(), values.end()}};
 }
 
@@ -40,7 +40,7 @@ grasping::HandShape read_hand_shape(const std::string& path) {
   if (const YAML::Node side = root["side"]) {
     const std::string name = reader.text(side, "side");
     if (name != "left" && name != "right") reader.fail(side, "key side: must be left or right, not '" + name + "'");
-    shape.side = name == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight;
+    shape.side = name == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
   }
   if (const YAML::Node length = root["length_m"]) shape.length_m = reader.number(length, "length_m");
   if (const YAML::Node breadth = root["breadth_m"]) shape.breadth_m = reader.number(breadth, "breadth_m");

@@ -16,7 +16,6 @@
 #include <glissade/apps/text.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/sliding_rules.h>
-#include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/shapes/shape_catalog.h>
 
@@ -54,7 +53,7 @@ class SceneReader {
     yaml_.check_keys(root, "scene", kSceneKeys);
     const YAML::Node objects = yaml_.required(root, "scene", "objects");
     if (!objects.IsSequence() || objects.size() == 0) yaml_.fail(objects, "objects: must be a list of objects");
-    Scene scene{source_, {}, std::nullopt, std::nullopt};
+    Scene scene{.source = source_};
     std::map<std::string, std::string> where_named;
     for (const YAML::Node& object : objects) {
       scene.objects.push_back(read_object(object));
@@ -64,25 +63,15 @@ class SceneReader {
     }
     if (root["script"]) scene.script_path = full_path(yaml_.text(root["script"], "script"));
     if (root["goal"]) scene.X_WGoal = read_pose(root["goal"], "goal");
-    scene.mesh_warnings = std::move(mesh_warnings_);
     return scene;
   }
 
  private:
-  /// A mesh that all objects of the same file, or of the same shape, share.
-  struct Geometry {
-    std::shared_ptr<const geometry::TriangleMesh> mesh;
-    std::int64_t degenerate_triangles = 0;
-  };
-
   SceneObject read_object(const YAML::Node& node) {
     yaml_.check_keys(node, "object", kObjectKeys);
     SceneObject object;
     object.name = yaml_.text(yaml_.required(node, "object", "name"), "name");
-    const Geometry geometry = read_geometry(node, object.name);
-    object.degenerate_triangles = geometry.degenerate_triangles;
-    object.mesh = geometry.mesh;
-    if (node["mesh"]) object.file_scale = node["scale"] ? yaml_.number(node["scale"], "scale") : 1.0;
+    object.mesh = read_geometry(node, object.name);
     if (node["pose"]) object.X_WB = read_pose(node["pose"], "pose");
     if (node["movable"]) object.movable = yaml_.boolean(node["movable"], "movable");
     if (node["moves"]) object.motion = read_motion(node);
@@ -150,7 +139,7 @@ class SceneReader {
     return {triangles.begin(), triangles.end()};
   }
 
-  Geometry read_geometry(const YAML::Node& object, const std::string& name) {
+  SceneMesh read_geometry(const YAML::Node& object, const std::string& name) {
     const YAML::Node mesh = object["mesh"];
     const YAML::Node shape = object["shape"];
     if (mesh && shape) yaml_.fail(shape, "object " + in_quotes(name) + " has both a mesh and a shape");
@@ -160,26 +149,21 @@ class SceneReader {
     return read_shape(shape);
   }
 
-  Geometry read_mesh(const YAML::Node& mesh, const YAML::Node& scale_node) {
+  SceneMesh read_mesh(const YAML::Node& mesh, const YAML::Node& scale_node) {
     const std::string path = full_path(yaml_.text(mesh, "mesh"));
     const double scale = scale_node ? yaml_.number(scale_node, "scale") : 1.0;
     if (scale <= 0.0) yaml_.fail(scale_node, "scale: must be positive, not " + in_quotes(scale_node.Scalar()));
-    Geometry& geometry = files_[{path, scale}];
-    if (geometry.mesh) return geometry;
+    SceneMesh& file = files_[{path, scale}];
+    if (file.shared()) return file;
     try {
       check_input(path);
-      geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
-      for (const std::string& sentence : imported.warnings)
-        mesh_warnings_.push_back(path + ": " + sentence);
-      geometry = {std::make_shared<const geometry::TriangleMesh>(std::move(imported.mesh)),
-                  imported.degenerate_triangles};
-      return geometry;
+      return file = SceneMesh(path, scale);
     } catch (const std::invalid_argument& error) {
       yaml_.fail(mesh, std::string("mesh: ") + error.what());
     }
   }
 
-  Geometry read_shape(const YAML::Node& shape) {
+  SceneMesh read_shape(const YAML::Node& shape) {
     yaml_.check_map(shape, "shape");
     const std::string type_key(kShapeTypeKey);
     const std::string type = yaml_.text(yaml_.required(shape, "shape", type_key), type_key);
@@ -188,11 +172,10 @@ class SceneReader {
       const std::string& key = entry.first.Scalar();
       if (key != kShapeTypeKey) parameters.emplace(key, yaml_.number(entry.second, key));
     }
-    Geometry& geometry = shapes_[{type, parameters}];
-    if (geometry.mesh) return geometry;
+    SceneMesh& made = shapes_[{type, parameters}];
+    if (made.shared()) return made;
     try {
-      geometry.mesh = std::make_shared<const geometry::TriangleMesh>(shapes::make_shape(type, parameters));
-      return geometry;
+      return made = shapes::make_shape(type, parameters);
     } catch (const std::invalid_argument& error) {
       yaml_.fail(shape, std::string("shape: ") + error.what() + meant_shape(type, parameters));
     }
@@ -222,20 +205,19 @@ class SceneReader {
   YamlReader yaml_;
   std::string source_;
   std::filesystem::path base_folder_;
-  std::vector<std::string> mesh_warnings_;
-  std::map<std::pair<std::string, double>, Geometry> files_;                          // by path and scale
-  std::map<std::pair<std::string, std::map<std::string, double>>, Geometry> shapes_;  // by type and parameters
+  std::map<std::pair<std::string, double>, SceneMesh> files_;                          // by path and scale
+  std::map<std::pair<std::string, std::map<std::string, double>>, SceneMesh> shapes_;  // by type and parameters
 };
 
 }  // namespace
 
-const SceneObject& Scene::find(const std::string& name) const {
+const SceneObject& find_object(const Scene& scene, const std::string& name) {
   std::vector<std::string> known;
-  for (const SceneObject& object : objects) {
+  for (const SceneObject& object : scene.objects) {
     if (object.name == name) return object;
     known.push_back(object.name);
   }
-  throw std::invalid_argument(source + ": there is no object " + in_quotes(name) + did_you_mean(name, known) +
+  throw std::invalid_argument(scene.source + ": there is no object " + in_quotes(name) + did_you_mean(name, known) +
                               " (known: " + joined(known) + ")");
 }
 

@@ -13,8 +13,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/geometry/pose_trajectory.h>
-#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/simulation/scene.h>
 
 namespace glissade::apps {
 
@@ -47,37 +46,14 @@ inline constexpr const char* kSceneFileHelp =
     "  script: hand.csv\n"
     "An unknown key or shape is an error that lists the known ones. All keys: docs/scene_files.md in the sources.";
 
-/// Motion of an object that moves on its own, or in another hand.
-struct SceneMotion {
-  geometry::PoseTrajectory script_X_WB;
-  std::optional<double> grip_N_per_m{};  ///< default: that of `contact::ScriptedPart`
-};
+using simulation::Scene;
+using simulation::SceneMesh;
+using simulation::SceneMotion;
+using simulation::SceneObject;
+using simulation::ScenePart;
 
-/// One object at its initial pose.
-struct SceneObject {
-  std::string name;
-  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< metres, in the object's frame B; equal meshes are shared
-  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
-  bool movable = false;
-  std::optional<SceneMotion> motion{};
-  std::optional<double> margin_m{};
-  std::optional<Eigen::Vector3d> compliance_point_B{};  ///< default: the centre of the bounding box
-  std::vector<std::int32_t> giving_way{};               ///< triangles that give way, ascending
-  std::int64_t degenerate_triangles = 0;                ///< left out of the mesh, see `import_mesh`
-  std::optional<double> file_scale{};                   ///< of a mesh file; none for a shape
-};
-
-/// A scene with at least one object; all names differ.
-struct Scene {
-  std::string source;  ///< the file's name, for messages
-  std::vector<SceneObject> objects;
-  std::optional<std::string> script_path;
-  std::optional<Eigen::Isometry3d> X_WGoal;
-  std::vector<std::string> mesh_warnings{};  ///< those of `import_mesh`, each after the name of the mesh file
-
-  /// Throws std::invalid_argument, listing the known names, when there is no object `name`.
-  const SceneObject& find(const std::string& name) const;
-};
+/// `Scene::find`, whose message says which name may have been meant.
+const SceneObject& find_object(const Scene& scene, const std::string& name);
 
 /// Reads a scene and the meshes it names.
 /// Throws std::invalid_argument, one line with file, line and key or value, for every deviation from the format.

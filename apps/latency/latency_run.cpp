@@ -15,10 +15,11 @@
 #include <glissade/apps/latency/shared_stamps.h>
 #include <glissade/apps/latency/udp_ping_pong.h>
 #include <glissade/apps/run/lcm_option.h>
-#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/contact/contact_body.h>
 #include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -68,10 +69,10 @@ Eigen::Isometry3d start_of_box() {
   return Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.022));
 }
 
-contact::MultiPartSliding make_sliding_for_latency() {
+grasping::GraspSimulation make_simulation() {
   const auto plate_W = std::make_shared<contact::ContactBody>(plate());
   const auto box_V = std::make_shared<contact::SlidingPart>(box());
-  return {{{plate_W}}, {{.part_V = box_V, .X_WV_start = start_of_box()}}, contact::real_time_rules()};
+  return {{{plate_W}}, {{.part_V = box_V, .X_WV_start = start_of_box()}}, {}, {.sliding = contact::real_time_rules()}};
 }
 
 /// Measures slice by slice.
@@ -151,9 +152,9 @@ class LatencyRun {
     if (is_far) helper_.end();
   }
 
-  void run_loop(StampedGlove& glove, const haptics::HapticServer::Sink& sink, LinkFigures& figures) {
-    contact::MultiPartSliding sliding = make_sliding_for_latency();
-    haptics::HapticServer server({{&glove}}, sliding, clock_, sink, {.period = kLatencyTick, .ticks = ticks()});
+  void run_loop(StampedGlove& glove, const haptics::StateSink& sink, LinkFigures& figures) {
+    grasping::GraspSimulation simulation = make_simulation();
+    haptics::HapticServer server({{&glove}}, simulation, {.period = kLatencyTick, .ticks = ticks(), .sink = sink});
     realtime::PeriodicThread bare_loop(clock_, {.period = kLatencyTick, .fifo_priority = realtime::kHapticPriority},
                                        [](const realtime::PeriodicTick&) { return true; });
     const std::chrono::nanoseconds give_up = clock_.now() + slice_ + kPatience;

@@ -54,10 +54,10 @@ Json part_message(const devices::HapticState& state, const devices::HapticPartSt
           {"age_s", in_seconds(state.contact_set_age)}};
 }
 
-Json joints_of(const devices::JointValues& values, const std::string& ending) {
+Json joints_of(const hands::JointValues& values, const std::string& ending) {
   Json joints = Json::object();
   for (std::size_t j = 0; j < values.size(); ++j)
-    joints[std::string(devices::kGloveJointNames[j]) + ending] = values[j];
+    joints[std::string(hands::kJointNames[j]) + ending] = values[j];
   return joints;
 }
 
@@ -72,9 +72,9 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
                {"command_age_s", in_seconds(hand.command_age)},
                {"energy_J", devices::energy_left(hand)},
                {"reason", to_text(recorded_reason(state, number))},
-               {"activity", devices::name_of(hand.visible.activity)},
-               {"grasp", devices::name_of(hand.visible.grasp)}};
-  if (hand.visible.activity == devices::HandActivity::kNone) return message;
+               {"activity", hands::name_of(hand.visible.activity)},
+               {"grasp", hands::name_of(hand.visible.grasp)}};
+  if (hand.visible.activity == hands::HandActivity::kNone) return message;
   message["grasp_reason"] = grasping::reason_of(grasping::grasp_of(hand.visible));
   message["angles_rad"] = joints_of(hand.visible.angles, "_rad");
   message["torques_Nm"] = joints_of(hand.joint_torques, "_Nm");
@@ -82,7 +82,7 @@ Json hand_message(const devices::HapticState& state, std::size_t number) {
 }
 
 /// Adds the poses of the segments of a hand that is present.
-void add_segments(const devices::VisibleHand& visible, const grasping::KinematicChain& chain, std::size_t hand,
+void add_segments(const hands::VisibleHand& visible, const grasping::KinematicChain& chain, std::size_t hand,
                   std::chrono::nanoseconds time, Json& transforms) {
   const std::span<const grasping::ChainLink> links = chain.links();
   std::vector<Eigen::Isometry3d> X_WL(links.size());
@@ -165,10 +165,10 @@ class McapLog {
       write(numbered("/part", p), &part_schema, state.time, part_message(state, state.parts[p]));
     }
     for (std::size_t h = 0; h < static_cast<std::size_t>(state.hand_count); ++h) {
-      const devices::VisibleHand& visible = state.hands[h].visible;
-      if (visible.activity != devices::HandActivity::kNone) X_WH_[h] = visible.X_WH;
+      const hands::VisibleHand& visible = state.hands[h].visible;
+      if (visible.activity != hands::HandActivity::kNone) X_WH_[h] = visible.X_WH;
       if (X_WH_[h]) transforms.push_back(transform_json(state.time, numbered("hand", h), *X_WH_[h]));
-      if (h < hands_.size() && hands_[h].model && devices::is_present(visible.activity))
+      if (h < hands_.size() && hands_[h].model && hands::is_present(visible.activity))
         add_segments(visible, hands_[h].model->chain, h, state.time, transforms);
       write(numbered("/hand", h), &hand_schema, state.time, hand_message(state, h));
     }

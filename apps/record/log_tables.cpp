@@ -72,7 +72,7 @@ Columns columns_of_hand() {
                   "qx",     "qy",       "qz"};
   for (const std::string& column : joint_columns())
     columns.push_back(column);
-  for (const std::string_view joint : devices::kGloveJointNames)
+  for (const std::string_view joint : hands::kJointNames)
     columns.push_back(std::string(joint) + "_Nm");
   columns.insert(columns.end(), {"form", "touching"});
   return columns;
@@ -179,12 +179,12 @@ class Tables {
           .add(in_seconds(hand.command_age))
           .add(devices::energy_left(hand))
           .add(to_text(recorded_reason(state, static_cast<std::size_t>(h))));
-      row.add(devices::name_of(hand.visible.activity)).add(devices::name_of(hand.visible.grasp)).add(hand.visible.X_WH);
+      row.add(hands::name_of(hand.visible.activity)).add(hands::name_of(hand.visible.grasp)).add(hand.visible.X_WH);
       for (const double angle : hand.visible.angles)
         row.add(angle);
       for (const double torque : hand.joint_torques)
         row.add(torque);
-      row.add(devices::name_of(hand.visible.form))
+      row.add(hands::name_of(hand.visible.form))
           .add(segment_names_.of(grasping::TouchingSegments::from_bits(hand.visible.touching)))
           .end_row();
     }

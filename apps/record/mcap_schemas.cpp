@@ -103,7 +103,7 @@ Json texts() {
 
 Json joints(const std::string& ending, const std::string& description) {
   Json properties = Json::object();
-  for (const std::string_view name : devices::kGloveJointNames)
+  for (const std::string_view name : hands::kJointNames)
     properties[std::string(name) + ending] = number(description);
   return object("joints", std::move(properties));
 }

@@ -30,11 +30,11 @@ std::vector<Grip> grips_of(const RecordedSession& session, const HapticScene& sc
 }
 
 void begin(ReplayAudience& audience, const HapticScene& scene, const RecordedSession& session,
-           const StartedSimulation& started) {
+           const grasping::GraspSimulation& simulation) {
   std::vector<std::int64_t> devices;
   for (const RecordedHand& hand : session.hands)
     devices.push_back(hand.glove.device);
-  audience.begin(scene, session.choice, session.period, devices, started.models);
+  audience.begin(scene, session.choice, session.period, devices, hand_models(simulation, devices.size()));
 }
 
 /// Feeds a run to its replay. Returns the session of the next run in the log.
@@ -61,12 +61,12 @@ std::optional<RecordedSession> repeat(const RecordedSession& session, LogFile& l
   const std::vector<Grip> grips = grips_of(session, scene, log.path());
   contact::SlidingRules rules = session.rules;
   rules.has_search_thread = true;  // takes less time, and gives the same bits
-  StartedSimulation started = start_simulation(scene, grips, session.choice, rules, session.period);
+  grasping::GraspSimulation simulation = start_simulation(scene, grips, session.choice, rules, session.period);
   std::vector<haptics::KernelHand> hands;
-  for (std::size_t h = 0; h < grips.size(); ++h)
-    hands.push_back({grips[h].device, grips[h].part, started.fingers[h]});
-  if (audience != nullptr) begin(*audience, scene, session, started);
-  haptics::Replay replay(*started.simulation, hands, session.period, head_of(session));
+  for (const Grip& grip : grips)
+    hands.push_back({.device = grip.device, .part = grip.part});
+  if (audience != nullptr) begin(*audience, scene, session, simulation);
+  haptics::Replay replay(simulation, hands, session.period, head_of(session));
 
   realtime::SteadyClock clock;
   const std::chrono::nanoseconds start = clock.now();

@@ -51,8 +51,8 @@ viewer::ViewScene recorded_moment(const std::string& log_path, const std::string
   }
   for (std::size_t h = 0; h < scene.hands.size(); ++h) {
     viewer::ViewHand& hand = scene.hands[h];
-    const devices::VisibleHand& visible = state.hands.at(h).visible;
-    if (!devices::is_present(visible.activity)) hand.model = nullptr;
+    const hands::VisibleHand& visible = state.hands.at(h).visible;
+    if (!hands::is_present(visible.activity)) hand.model = nullptr;
     if (!hand.model) continue;
     hand.X_WL.resize(hand.model->chain.links().size());
     hand.model->chain.poses(visible.X_WH, visible.angles, hand.X_WL);

@@ -22,7 +22,7 @@ std::string hexadecimal(std::uint64_t number) {
 
 nlohmann::json json_of(const std::optional<grasping::HandShape>& shape) {
   if (!shape) return nullptr;
-  return {{"side", shape->side == devices::HandSide::kLeft ? "left" : "right"},
+  return {{"side", shape->side == hands::HandSide::kLeft ? "left" : "right"},
           {"length_m", shape->length_m},
           {"breadth_m", shape->breadth_m}};
 }
@@ -31,7 +31,7 @@ grasping::HandShape shape_of(const nlohmann::json& fingers) {
   const std::string side = fingers.at("side");
   return {.length_m = fingers.at("length_m"),
           .breadth_m = fingers.at("breadth_m"),
-          .side = side == "left" ? devices::HandSide::kLeft : devices::HandSide::kRight};
+          .side = side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight};
 }
 
 devices::LogEvent event_of(const RecordedSession& session) {
@@ -81,7 +81,7 @@ RecordedSession session_of(const devices::LogEvent& event) {
   session.choice.depenetrate = text.at("depenetrate");
   session.period = std::chrono::nanoseconds(text.at("period_ns").get<std::int64_t>());
   haptics::validate_tick_period(session.period);
-  if (text.at("hands").size() > haptics::kMaxHands) throw std::invalid_argument("too many hands");
+  if (text.at("hands").size() > hands::kMaxHands) throw std::invalid_argument("too many hands");
   for (const nlohmann::json& hand : text.at("hands")) {
     RecordedHand& recorded = session.hands.emplace_back();
     recorded.glove.device = hand.at("device");

@@ -23,11 +23,11 @@ HandTimes times_of(const SessionRecorder& samples, std::size_t h) {
   HandTimes times;
   bool has_been_present = false;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const devices::HandActivity activity = samples.hand(i, h).visible.activity;
-    has_been_present = has_been_present || devices::is_present(activity);
+    const hands::HandActivity activity = samples.hand(i, h).visible.activity;
+    has_been_present = has_been_present || hands::is_present(activity);
     if (!has_been_present) continue;
-    times.lost_ticks += activity == devices::HandActivity::kLost ? 1 : 0;
-    times.waiting_ticks += activity == devices::HandActivity::kWaiting ? 1 : 0;
+    times.lost_ticks += activity == hands::HandActivity::kLost ? 1 : 0;
+    times.waiting_ticks += activity == hands::HandActivity::kWaiting ? 1 : 0;
   }
   return times;
 }

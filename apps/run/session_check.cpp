@@ -117,8 +117,8 @@ void SessionCheck::check_hand(std::size_t hand, const grasping::HandModel& model
   const std::size_t links = model.chain.links().size();
   std::vector<Eigen::Isometry3d> X_WL(samples_.size() * links);
   for (std::size_t i = 0; i < samples_.size(); ++i) {
-    const devices::VisibleHand& visible = samples_.hand(i, hand).visible;
-    if (!devices::is_present(visible.activity)) counts[i] = 0;
+    const hands::VisibleHand& visible = samples_.hand(i, hand).visible;
+    if (!hands::is_present(visible.activity)) counts[i] = 0;
     if (counts[i] != 0) model.chain.poses(visible.X_WH, visible.angles, std::span(X_WL).subspan(i * links, links));
   }
   Mask collides(samples_.size(), 0);

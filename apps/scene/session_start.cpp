@@ -7,10 +7,8 @@
 #include <glissade/apps/scene/session_start.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/spring.h>
 #include <glissade/grasping/grasp_simulation.h>
-#include <glissade/haptics/loop_simulation.h>
 
 namespace glissade::apps {
 
@@ -20,10 +18,12 @@ void soften(contact::HeldPart& part, const devices::DeviceDescriptor& device, st
   part.stiffness = haptics::coupling_for(device, part.stiffness.value(), period).stiffness;
 }
 
+using Models = std::vector<std::shared_ptr<const grasping::HandModel>>;
+
 /// Hands of one shape share their model.
-std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const std::vector<Grip>& grips) {
-  std::map<std::tuple<double, double, devices::HandSide>, std::shared_ptr<const grasping::HandModel>> known;
-  std::vector<std::shared_ptr<const grasping::HandModel>> models;
+Models models_of(const std::vector<Grip>& grips) {
+  std::map<std::tuple<double, double, hands::HandSide>, std::shared_ptr<const grasping::HandModel>> known;
+  Models models;
   for (const Grip& grip : grips) {
     const grasping::HandShape& shape = *grip.fingers;
     auto& model = known[{shape.length_m, shape.breadth_m, shape.side}];
@@ -55,9 +55,17 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const Sl
   return sentences;
 }
 
-StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
-                                   const SlidingChoice& choice, const contact::SlidingRules& rules,
-                                   std::chrono::nanoseconds period) {
+std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(const grasping::GraspSimulation& simulation,
+                                                                    std::size_t count) {
+  Models models(count);
+  for (std::size_t h = 0; h < simulation.hand_count(); ++h)
+    models[h] = simulation.model(h);
+  return models;
+}
+
+grasping::GraspSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
+                                           const SlidingChoice& choice, const contact::SlidingRules& rules,
+                                           std::chrono::nanoseconds period) {
   std::vector<contact::HeldPart> parts = held_parts(scene, choice);
   const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
   for (const Grip& grip : grips) {
@@ -65,22 +73,9 @@ StartedSimulation start_simulation(const HapticScene& scene, const std::vector<G
     for (std::size_t p = 0; p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);
   }
-  const contact::SlidingRules chosen = with_choice(rules, choice);
-  StartedSimulation started;
-  started.fingers.resize(grips.size());
-  started.models.resize(grips.size());
+  const grasping::GraspRules chosen{.sliding = with_choice(rules, choice)};
   try {
-    if (!has_fingers) {
-      started.parts = std::make_unique<contact::MultiPartSliding>(scene.obstacles, parts, chosen);
-      started.simulation = std::make_unique<haptics::PartsInLoop>(*started.parts);
-      return started;
-    }
-    started.models = models_of(grips);
-    for (std::size_t h = 0; h < grips.size(); ++h)
-      started.fingers[h] = grasping::finger_hand(*started.models[h]);
-    started.simulation = std::make_unique<grasping::GraspSimulation>(scene.obstacles, parts, started.models,
-                                                                     grasping::GraspRules{.sliding = chosen});
-    return started;
+    return {scene.obstacles, parts, has_fingers ? models_of(grips) : Models{}, chosen};
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": " + error.what() + overlap_advice(scene, !choice.depenetrate));
   }

@@ -10,11 +10,10 @@
 
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/glove_device.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/haptic_kernel.h>
-#include <glissade/haptics/loop_simulation.h>
 
 namespace glissade::apps {
 
@@ -25,14 +24,6 @@ struct Grip {
   std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 
-/// A simulation, and its hands as the haptic loop takes them, one for each grip.
-struct StartedSimulation {
-  std::unique_ptr<contact::MultiPartSliding> parts;  ///< of hands without fingers
-  std::unique_ptr<haptics::LoopSimulation> simulation;
-  std::vector<std::optional<haptics::FingerHand>> fingers;
-  std::vector<std::shared_ptr<const grasping::HandModel>> models;  ///< null without fingers
-};
-
 /// The devices among these with which contacts are softer than chosen, each in a sentence with the reason. The delay of
 /// a link does not count.
 std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
@@ -41,8 +32,12 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const Sl
 /// Starts the simulation. A part has the chosen stiffness, lowered to the limits of all devices: each may come to hold
 /// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part
 /// that starts inside another object, with how deep it is and what can be done.
-StartedSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
-                                   const SlidingChoice& choice, const contact::SlidingRules& rules,
-                                   std::chrono::nanoseconds period = haptics::kTickPeriod);
+grasping::GraspSimulation start_simulation(const HapticScene& scene, const std::vector<Grip>& grips,
+                                           const SlidingChoice& choice, const contact::SlidingRules& rules,
+                                           std::chrono::nanoseconds period = haptics::kTickPeriod);
+
+/// The model of each of `count` hands; null for one without fingers.
+std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(const grasping::GraspSimulation& simulation,
+                                                                    std::size_t count);
 
 }  // namespace glissade::apps

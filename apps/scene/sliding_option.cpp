@@ -35,10 +35,7 @@ contact::Metaphor metaphor_of(const SlidingChoice& choice) {
 }
 
 contact::CouplingStiffness stiffness_of(const SlidingChoice& choice, double radius) {
-  const contact::CouplingStiffness usual = contact::default_stiffness(radius);
-  if (!choice.stiffness_N_per_m) return usual;
-  const double factor = *choice.stiffness_N_per_m / usual.translational;
-  return {*choice.stiffness_N_per_m, factor * usual.rotational};
+  return contact::stiffness_of_part(radius, choice.stiffness_N_per_m.value_or(contact::kUsualStiffness_N_per_m));
 }
 
 contact::SlidingRules with_choice(contact::SlidingRules rules, const SlidingChoice& choice) {

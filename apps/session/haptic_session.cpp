@@ -55,9 +55,9 @@ RecordedSession real_time_session(const HapticScene& scene, const std::vector<de
 }
 
 Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const HapticScene& scene,
-                 const StartedSimulation& started, std::vector<std::int64_t> devices,
+                 const grasping::GraspSimulation& simulation, const std::vector<std::int64_t>& devices,
                  std::shared_ptr<const SessionRecorder> samples, std::optional<RealTimeFigures> real_time) {
-  const contact::MultiPartSliding& sliding = started.simulation->parts();
+  const contact::MultiPartSliding& sliding = simulation.parts();
   const contact::SearchStatistics& work = sliding.search_statistics();
   return {ticks,
           period,
@@ -65,8 +65,8 @@ Session finished(std::int64_t ticks, std::chrono::nanoseconds period, const Hapt
           work.searches,
           work.reports,
           sliding.call_statistics(),
-          std::move(devices),
-          started.models,
+          devices,
+          hand_models(simulation, devices.size()),
           std::move(samples),
           std::move(real_time)};
 }
@@ -138,14 +138,15 @@ RunWatch watch_of(const HapticScene& scene, const RunSettings& settings) {
 
 /// Shows the run to browsers, and waits for the first one if that is wanted.
 std::unique_ptr<viewer::ViewServer> view_of(const HapticScene& scene, const RunSettings& settings,
-                                            const StartedSimulation& started, const std::function<bool()>& should_stop,
+                                            const grasping::GraspSimulation& simulation,
+                                            const std::function<bool()>& should_stop,
                                             const std::function<void(const RunNews&)>& watch) {
   if (!settings.view_port) return nullptr;
   std::vector<std::int64_t> devices;
   for (const SessionHand& hand : settings.hands)
     devices.push_back(hand.device);
-  auto server = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), started.models),
-                                                     *settings.view_port);
+  auto server = std::make_unique<viewer::ViewServer>(
+      view_scene_of(scene, glove_names(devices), hand_models(simulation, devices.size())), *settings.view_port);
   watch({.sentences = {"open " + server->url() + (settings.waits_for_page ? " in a browser: then it starts" : "")}});
   while (settings.waits_for_page && !server->has_had_client() && !should_stop())
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -163,16 +164,16 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
   } else {
     grip.fingers.emplace();
   }
-  StartedSimulation started = start_simulation(scene, {grip}, choice, {});
+  grasping::GraspSimulation simulation = start_simulation(scene, {grip}, choice, {});
   validate(record);
   for (const std::string& sentence : softer_devices({grip}, choice, haptics::kTickPeriod))
     say("glissade: " + sentence);
-  const contact::MultiPartSliding& sliding = started.simulation->parts();
+  const contact::MultiPartSliding& sliding = simulation.parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks), sliding.part_count(), 1);
   std::optional<haptics::LogRecorder> log;
   if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, grip, choice, record)));
   ProgressBar progress("offline", ticks);
-  haptics::run_offline({{&glove, grip.part, started.fingers.front()}}, *started.simulation, ticks,
+  haptics::run_offline({{&glove, grip.part}}, simulation, ticks,
                        [&](const devices::HapticState& sample) {
                          recorder->record(sample);
                          progress.update(recorder->total());
@@ -180,7 +181,7 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
                        {.observer = log ? &*log : nullptr});
   if (log) log->close();
   Session session =
-      finished(ticks, haptics::kTickPeriod, scene, started, {devices::kDefaultDevice}, recorder, std::nullopt);
+      finished(ticks, haptics::kTickPeriod, scene, simulation, {devices::kDefaultDevice}, recorder, std::nullopt);
   session.recording = record.log;
   session.choice = choice;
   return session;
@@ -200,7 +201,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     Grip& grip = grips.emplace_back();
     grip = {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), settings.hands[h].part,
             settings.hands[h].fingers};
-    if (grip.fingers && h < infos.size() && infos[h].side != devices::HandSide::kUnknown)
+    if (grip.fingers && h < infos.size() && infos[h].side != hands::HandSide::kUnknown)
       grip.fingers->side = infos[h].side;
     fastest = std::min(fastest, period_of(grips.back().device));
   }
@@ -210,13 +211,14 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
   const double most_s = settings.seconds + settings.longer_s;
   const std::int64_t ticks = std::llround(most_s / std::chrono::duration<double>(period).count());
-  StartedSimulation started = start_simulation(scene, grips, settings.choice, contact::real_time_rules(), period);
+  grasping::GraspSimulation simulation =
+      start_simulation(scene, grips, settings.choice, contact::real_time_rules(), period);
   watch({.sentences = softer_devices(grips, settings.choice, period)});
-  const contact::MultiPartSliding& sliding = started.simulation->parts();
+  const contact::MultiPartSliding& sliding = simulation.parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
                                                           sliding.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);
-  const std::unique_ptr<viewer::ViewServer> view = view_of(scene, settings, started, should_stop, watch);
+  const std::unique_ptr<viewer::ViewServer> view = view_of(scene, settings, simulation, should_stop, watch);
   SessionSink sink(bus, recorder, run_watch, view.get());
   std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
   std::vector<haptics::HandOfServer> hands;
@@ -226,17 +228,20 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
     gloves.push_back(std::make_unique<devices::LcmGlove>(
         bus, grips[h].device,
         devices::LcmGloveOptions{.device = device, .glove_session = h < infos.size() ? infos[h].session : 0}));
-    hands.push_back({gloves.back().get(), grips[h].part, started.fingers[h]});
+    hands.push_back({gloves.back().get(), grips[h].part});
     numbers.push_back(device);
   }
   // A run that ends before all gloves have been heard leaves an older file alone.
   const bool has_all = infos.size() == settings.hands.size();
   RunRecorders recorders(has_all ? settings.record : RecordSettings{},
                          real_time_session(scene, infos, grips, settings, period));
+  haptics::HapticServer server(hands, simulation,
+                               {.period = period,
+                                .ticks = ticks,
+                                .spin = settings.spin,
+                                .sink = [&sink](const devices::HapticState& sample) { sink.receive(sample); },
+                                .observer = recorders.observer()});
   realtime::SteadyClock clock;
-  haptics::HapticServer server(
-      hands, *started.simulation, clock, [&sink](const devices::HapticState& sample) { sink.receive(sample); },
-      {.period = period, .ticks = ticks, .spin = settings.spin, .observer = recorders.observer()});
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
   std::set<std::string> told;
@@ -261,7 +266,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   watch({.ticks = server.ticks(), .sentences = recorders.finish(server.has_failed())});
   bare_timer.stop();
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
-  Session session = finished(server.ticks(), period, scene, started, numbers, recorder,
+  Session session = finished(server.ticks(), period, scene, simulation, numbers, recorder,
                              RealTimeFigures{server.statistics(), bare_timer.statistics()});
   if (has_all) session.recording = settings.record.log;
   session.is_recording_whole = recorders.is_whole();

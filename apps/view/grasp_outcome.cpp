@@ -34,7 +34,7 @@ void GraspOutcome::add(double time_s, const std::vector<std::optional<grasping::
     hand.grasps += part >= 0 && part != hand.part ? 1 : 0;
     hand.holding_ms += part >= 0 ? 1 : 0;
     hand.missed.note(time_s, simulation_.grasp(h), part >= 0);
-    if (simulation_.activity(h) == devices::HandActivity::kWaiting && targets[h]) {
+    if (simulation_.activity(h) == hands::HandActivity::kWaiting && targets[h]) {
       if (hand.waiting_ms++ == 0) {
         hand.waits_first = "first at " + fixed_text(time_s, 3) + " s: its target is inside an object, there " +
                            nearest_object(scene_, simulation_, *models_[h], *targets[h]);

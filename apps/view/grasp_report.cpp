@@ -5,7 +5,6 @@
 #include <utility>
 
 #include <glissade/apps/text.h>
-#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/contact/spring.h>
@@ -42,8 +41,8 @@ GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulati
       forces_(scene.parts.size()),
       torques_(scene.parts.size()),
       parts_(names_of_parts(scene)) {
-  for (std::int32_t kind = 0; kind < devices::kGraspKinds; ++kind)
-    kinds_.words.emplace_back(devices::name_of(static_cast<devices::GraspKind>(kind)));
+  for (std::int32_t kind = 0; kind < hands::kGraspTypes; ++kind)
+    kinds_.words.emplace_back(hands::name_of(static_cast<hands::GraspType>(kind)));
   for (std::size_t h = 0; h < hands.size(); ++h) {
     touching_.emplace_back(name_of_hand(h));
     kinds_.strips.push_back({name_of_hand(h), {}});
@@ -61,14 +60,14 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   state.time = time;
   state.part_count = static_cast<std::int32_t>(simulation_.part_count());
   state.hand_count = static_cast<std::int32_t>(simulation_.hand_count());
-  simulation_.tell_hands(answers_);
   const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const contact::SlidingResult& result = simulation_.parts().result(p);
     show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
     parts_.add(time_s, p, state.parts[p]);
     if (p >= scene_.parts.size()) continue;  // moves on its own
-    const contact::Wrench wrench = contact_wrench(simulation_.parts().result(p), simulation_.parts().p_Vref(p));
+    const contact::Wrench wrench =
+        contact::contact_wrench(simulation_.parts().result(p), simulation_.parts().p_Vref(p));
     forces_[p].add(time_s, wrench.f);
     torques_[p].add(time_s, wrench.t);
     others_X_WB_.clear();
@@ -81,7 +80,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     const auto part = simulation_.held_part(h);
     devices::HapticHandState& hand = state.hands[h];
     hand.part = part ? static_cast<std::int32_t>(*part) : -1;
-    hand.visible = answers_.hands[h].visible;
+    hand.visible = simulation_.visible(h);
     const auto& touching = simulation_.clasp(h).touching();
     touching_[h].add(time_s, static_cast<double>(std::count_if(touching.begin(), touching.end(),
                                                                [](char touches) { return touches != 0; })));

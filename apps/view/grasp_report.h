@@ -35,7 +35,6 @@ class GraspReport {
   const HapticScene& scene_;
   const grasping::GraspSimulation& simulation_;
   ReplayMaker replay_;
-  haptics::ContactSet answers_;                   // about the hands
   std::vector<contact::ContactPatches> patches_;  // by part
   std::int64_t ticks_ = 0;
   StripChart kinds_{"Kind of grasp", {}, {}};

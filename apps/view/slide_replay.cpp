@@ -1,6 +1,5 @@
 #include <cstdint>
 
-#include <glissade/apps/view/contact_wrench.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/apps/view/slide_replay.h>
 #include <glissade/contact/spring.h>
@@ -30,7 +29,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const reference::SlidingSim
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;
   }
-  const contact::Wrench wrench = contact_wrench(sliding.result(), sliding.part().p_Vref());
+  const contact::Wrench wrench = contact::contact_wrench(sliding.result(), sliding.part().p_Vref());
   state.hands[0].part = 0;
   state.hands[0].force_W = wrench.f;
   state.hands[0].torque_V_W = wrench.t;

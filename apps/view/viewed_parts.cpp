@@ -17,7 +17,7 @@ Eigen::Vector3d compliance_point(const SceneObject& object) {
 
 bool has_fingers(const devices::HapticState& state) {
   return std::any_of(state.hands.begin(), state.hands.begin() + state.hand_count,
-                     [](const auto& hand) { return hand.visible.activity != devices::HandActivity::kNone; });
+                     [](const auto& hand) { return hand.visible.activity != hands::HandActivity::kNone; });
 }
 
 }  // namespace

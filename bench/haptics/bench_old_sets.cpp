@@ -191,7 +191,7 @@ using ForceAt = std::function<Vector3d(std::size_t tick, std::size_t then)>;
 ForceAt our_force(const OldSets& sets, int age) {
   const contact::SlidingPart& part = *sets.scene.part_V;
   auto contacts = std::make_shared<test_support::OneHandForce>(
-      part.p_Vref(), part.radius(), contact::default_stiffness(part.radius()), kUnlimited, sets.scene.X_WV_start);
+      part.p_Vref(), part.radius(), contact::stiffness_of_part(part.radius()), kUnlimited, sets.scene.X_WV_start);
   return [&sets, age, contacts](std::size_t tick, std::size_t then) {
     return contacts->update(sets.answers.sets[then], milliseconds(age), sets.answers.X_WG[tick], kTick_s).f;
   };

@@ -63,7 +63,7 @@ devices::GloveState state_at(int tick) {
 
 haptics::HapticKernel kernel_of(std::size_t parts, std::size_t hands) {
   const auto part = test_support::part_of(geometry::make_box(test_support::kBoxSize, 12));
-  const haptics::KernelPart each{part->p_Vref(), part->radius(), contact::default_stiffness(part->radius())};
+  const haptics::KernelPart each{part->p_Vref(), part->radius(), contact::stiffness_of_part(part->radius())};
   std::vector<haptics::KernelHand> all_hands;
   for (std::size_t h = 0; h < hands; ++h)
     all_hands.push_back({devices::simulated_glove_descriptor(), h});

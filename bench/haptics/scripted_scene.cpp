@@ -16,7 +16,7 @@ using test_support::SlidingScene;
 
 SlidingScene scripted(const std::string& name, const apps::Scene& file, const geometry::PoseTrajectory& script_X_WH,
                       double speed) {
-  const apps::HapticScene haptic = make_haptic_scene(file, movable_objects(file));
+  const apps::HapticScene haptic = apps::make_haptic_scene(file, apps::movable_objects(file));
   SlidingScene scene;
   scene.name = name;
   scene.obstacles = haptic.obstacles;

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 #include "certificate/moving_bodies.h"
 #include "cycle/sliding_constants.h"
@@ -108,7 +108,7 @@ HeldPartState state_at_start(const HeldPart& held, const Eigen::Isometry3d& X_WV
   HeldPartState state{.part_V = held.part_V,
                       .p_Vref = held.part_V->p_Vref(),
                       .metaphor = held.metaphor,
-                      .stiffness = held.stiffness.value_or(default_stiffness(held.part_V->radius())),
+                      .stiffness = held.stiffness.value_or(stiffness_of_part(held.part_V->radius())),
                       .margin = rules.margin.value_or(default_margin(*held.part_V)),
                       .lever = held.part_V->radius(),
                       .script = held.script,

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 
-#include <glissade/geometry/triangle_features.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "features/contact_filter.h"
 #include "features/corner_kernel.h"

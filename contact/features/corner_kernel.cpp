@@ -6,7 +6,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-// Every operation is that of geometry/triangle_features.h, in the same order and without fused multiply-add, so that
+// Every operation is that of geometry/triangle_pair.h, in the same order and without fused multiply-add, so that
 // every rounding is the same.
 HWY_BEFORE_NAMESPACE();
 namespace glissade::contact::HWY_NAMESPACE {

@@ -10,7 +10,7 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/geometry/triangle_features.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "scene/contact_scene.h"
 

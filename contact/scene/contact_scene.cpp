@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 namespace glissade::contact {
 namespace {

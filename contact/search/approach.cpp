@@ -9,7 +9,6 @@
 
 #include <glissade/base/assert.h>
 #include <glissade/geometry/displacement.h>
-#include <glissade/geometry/rigid_pose.h>
 
 namespace glissade::contact {
 

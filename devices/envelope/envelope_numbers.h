@@ -21,7 +21,7 @@ inline double in_seconds(std::chrono::nanoseconds time) noexcept {
   return std::chrono::duration<double>(time).count();
 }
 
-inline bool all_finite(const JointValues& values) noexcept {
+inline bool all_finite(const hands::JointValues& values) noexcept {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 

@@ -70,7 +70,7 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   use(message.max_turn_rate_rad_per_s, descriptor.max_turn_rate);
   use(message.workspace_radius_m, descriptor.workspace_radius);
   use(message.update_rate_Hz, descriptor.update_rate);
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
     use(message.joint_lower_rad[i], descriptor.joint_lower[i]);
     use(message.joint_upper_rad[i], descriptor.joint_upper[i]);
   }
@@ -163,7 +163,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   std::replace_if(descriptor.name.begin(), descriptor.name.end(), is_control, '?');
   info = {.device = message.device,
           .session = message.session,
-          .side = HandSide{message.side},
+          .side = hands::HandSide{message.side},
           .descriptor = std::move(descriptor)};
   return MessageError::kNone;
 }
@@ -175,7 +175,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
     error = MessageError::kWrongVersion;
   if (error == MessageError::kNone) error = check(message);
   if (error != MessageError::kNone) return error;
-  header = {message.device, message.session, message.leaseholder, static_cast<HandSide>(message.side)};
+  header = {message.device, message.session, message.leaseholder, static_cast<hands::HandSide>(message.side)};
   state.is_enabled = message.enabled != 0;
   state.grip = message.grip;
   state.sequence = message.sequence;
@@ -183,7 +183,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   state.X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz);
   state.v_WH = Eigen::Vector3d(message.v_WH_m_per_s);
   state.w_WH = Eigen::Vector3d(message.w_WH_rad_per_s);
-  std::copy_n(message.joint_angles_rad, kGloveJoints, state.joint_angles.begin());
+  std::copy_n(message.joint_angles_rad, hands::kJoints, state.joint_angles.begin());
   state.limits = limit_reasons_from_bits(message.reasons);
   state.link_delay = std::chrono::nanoseconds(message.link_delay_ns);
   state.energy = message.energy_J;
@@ -207,7 +207,7 @@ MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, 
   command.time = std::chrono::nanoseconds(message.time_ns);
   command.f_H_W = Eigen::Vector3d(message.force_H_W_N);
   command.t_H_W = Eigen::Vector3d(message.torque_H_W_Nm);
-  std::copy_n(message.joint_torques_Nm, kGloveJoints, command.joint_torques.begin());
+  std::copy_n(message.joint_torques_Nm, hands::kJoints, command.joint_torques.begin());
   command.supply = message.supply_J;
   return MessageError::kNone;
 }

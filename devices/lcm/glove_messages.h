@@ -22,7 +22,7 @@ struct StateHeader {
   std::int64_t device = 0;
   std::int64_t session = 0;      ///< of the glove
   std::int64_t leaseholder = 0;  ///< session of the server whose commands the glove obeys; 0: of none
-  HandSide side = HandSide::kUnknown;
+  hands::HandSide side = hands::HandSide::kUnknown;
 };
 
 /// What the message of a command says of the link.

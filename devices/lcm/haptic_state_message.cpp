@@ -146,13 +146,13 @@ Enumeration enumeration_of(std::int32_t number, std::int32_t count) noexcept {
   return static_cast<Enumeration>(number >= 0 && number < count ? number : 0);
 }
 
-VisibleHand visible_hand_of(const haptic_hand_t& message) noexcept {
-  VisibleHand visible{.activity = enumeration_of<HandActivity>(message.activity, kHandActivities),
-                      .grasp = enumeration_of<GraspKind>(message.grasp, kGraspKinds),
-                      .form = enumeration_of<GraspForm>(message.form, kGraspForms),
-                      .touching = message.touching,
-                      .X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz)};
-  std::copy_n(message.joint_angles_rad, kGloveJoints, visible.angles.begin());
+hands::VisibleHand visible_hand_of(const haptic_hand_t& message) noexcept {
+  hands::VisibleHand visible{.activity = enumeration_of<hands::HandActivity>(message.activity, hands::kHandActivities),
+                             .grasp = enumeration_of<hands::GraspType>(message.grasp, hands::kGraspTypes),
+                             .form = enumeration_of<hands::GraspForm>(message.form, hands::kGraspForms),
+                             .touching = message.touching,
+                             .X_WH = pose_of(message.position_WH_m, message.orientation_WH_wxyz)};
+  std::copy_n(message.joint_angles_rad, hands::kJoints, visible.angles.begin());
   return visible;
 }
 
@@ -169,7 +169,7 @@ HapticHandState hand_of(const haptic_hand_t& message) noexcept {
                        .energy = message.energy_J,
                        .glove_energy = message.glove_energy_J,
                        .visible = visible_hand_of(message)};
-  std::copy_n(message.joint_torques_Nm, kGloveJoints, hand.joint_torques.begin());
+  std::copy_n(message.joint_torques_Nm, hands::kJoints, hand.joint_torques.begin());
   return hand;
 }
 

@@ -29,7 +29,7 @@ struct FingerLinks {
 inline constexpr std::array<FingerLinks, 4> kFingerLinks{
     {{kPalmLink, 7, 8, 9, 10}, {kPalmLink, 11, 12, 13, 14}, {15, 16, 17, 18, 19}, {20, 21, 22, 23, 24}}};
 
-/// Flex values, in the order of devices::kGloveJointNames.
+/// Flex values, in the order of hands::kJointNames.
 inline constexpr std::size_t kThumbRollValue = 0;
 inline constexpr std::size_t kThumbMcpValue = 1;
 inline constexpr std::size_t kThumbIpValue = 2;

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <glissade/base/assert.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 #include "clasp/chain_step.h"
 #include "hand/hand_links.h"

@@ -32,6 +32,7 @@ class GraspingHand {
   GraspingHand(std::shared_ptr<const HandModel> model, const std::vector<contact::Obstacle>& fixed,
                std::vector<std::shared_ptr<const contact::SlidingPart>> parts, const ClaspRules& rules);
 
+  const std::shared_ptr<const HandModel>& model() const { return model_; }
   const Clasp& clasp() const { return clasp_; }
   Clasp& clasp() { return clasp_; }
   const Grasp& grasp() const { return analysis_.grasp(); }

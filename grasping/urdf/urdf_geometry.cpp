@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/mesh_import.h>
-#include <glissade/geometry/rigid_pose.h>
 
 #include "urdf/urdf_document.h"
 

@@ -2,9 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
-
-#include <glissade/haptics/loop_simulation.h>
 
 namespace glissade::haptics {
 
@@ -38,26 +35,35 @@ Ghosts between(const Ghosts& from, const Ghosts& to, double share) {
   return ghosts;
 }
 
+grasping::HandTarget target_of(const GhostOfHand& ghost) {
+  grasping::HandTarget target;
+  if (ghost.is_tracked) target.posture = {ghost.X_WH, {ghost.angles.begin(), ghost.angles.end()}};
+  if (ghost.part >= 0) target.part = static_cast<std::size_t>(ghost.part);
+  return target;
+}
+
 }  // namespace
 
-Answerer::Answerer(SimulationInLoop simulation)
-    : simulation_(std::move(simulation)),
-      sliding_(simulation_->parts()),
+Answerer::Answerer(grasping::GraspSimulation& simulation)
+    : simulation_(simulation),
+      sliding_(simulation.parts()),
       calls_before_(sliding_.call_statistics().calls),
-      patches_(sliding_) {
+      patches_(sliding_),
+      X_WG_(simulation.part_count()),
+      targets_(simulation.hand_count()) {
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
-    if (!sliding_.is_scripted(p)) simulation_->leave_part(p);
+    if (!sliding_.is_scripted(p)) simulation_.leave_part(p);
   }
 }
 
-ContactSet Answerer::at_start() const {
+ContactSet Answerer::at_start() {
   ContactSet set;
   set.part_count = static_cast<std::int32_t>(sliding_.part_count());
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
     set.parts[p].p_Vref = sliding_.p_Vref(p);
     set.parts[p].X_WV = sliding_.result(p).X_WV;
   }
-  simulation_->tell_hands(set);
+  tell_hands(set);
   return set;
 }
 
@@ -65,8 +71,8 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   for (std::size_t p = 0; p < sliding_.part_count(); ++p) {
     const GhostOfPart& ghost = ghosts.parts[p];
     if (sliding_.is_scripted(p) || ghost.hold == holds_[p]) continue;
-    if (ghost.release > holds_[p]) simulation_->leave_part(p);
-    if (ghost.is_held) simulation_->take_part(p, ghost.X_WG);
+    if (ghost.release > holds_[p]) simulation_.leave_part(p);
+    if (ghost.is_held) simulation_.take_part(p, ghost.X_WG);
     holds_[p] = ghost.hold;
   }
   // An answer that takes long must not slow the parts down: the slew is a speed.
@@ -86,13 +92,22 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   for (std::size_t p = 0; p < sliding_.part_count(); ++p)
     set.parts[p].hold = holds_[p];
   patches_.tell(set);
-  simulation_->tell_hands(set);
+  tell_hands(set);
 }
 
 void Answerer::advance(const Ghosts& ghosts, double milliseconds) {
-  simulation_->advance(ghosts, milliseconds);
+  for (std::size_t p = 0; p < X_WG_.size(); ++p)
+    X_WG_[p] = ghosts.parts[p].X_WG;
+  for (std::size_t h = 0; h < targets_.size(); ++h)
+    targets_[h] = target_of(ghosts.hands[h]);
+  simulation_.advance(X_WG_, targets_, milliseconds);
   ++calls_;
   times_[static_cast<std::size_t>(calls_) % times_.size()] = ghosts.time;
+}
+
+void Answerer::tell_hands(ContactSet& set) {
+  for (std::size_t h = 0; h < targets_.size(); ++h)
+    fingers_.tell(simulation_, h, set.hands[h]);
 }
 
 std::chrono::nanoseconds Answerer::time_of_answered() const {

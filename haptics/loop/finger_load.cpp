@@ -39,9 +39,9 @@ FingerLoad::FingerLoad(const devices::DeviceDescriptor& device, std::span<const 
     bears_[j] = false;
 }
 
-const devices::JointValues& FingerLoad::update(const HandAnswer& hand, const Load& load,
-                                               const devices::JointValues& springs, const devices::JointValues& angles,
-                                               double dt) noexcept {
+const hands::JointValues& FingerLoad::update(const HandAnswer& hand, const Load& load,
+                                             const hands::JointValues& springs, const hands::JointValues& angles,
+                                             double dt) noexcept {
   count_energy(angles, dt);
   forces_.fill(0.0);
   const bool is_loaded =
@@ -86,10 +86,10 @@ void FingerLoad::share(const HandAnswer& hand, const Load& load) noexcept {
 }
 
 /// What the forces demand of the joints, within the limits, and which share of it where the glove's segments are.
-void FingerLoad::follow(const HandAnswer& hand, const devices::JointValues& angles, double dt) noexcept {
+void FingerLoad::follow(const HandAnswer& hand, const hands::JointValues& angles, double dt) noexcept {
   const std::span<const FingerRow> rows = hand.rows();
-  devices::JointValues whole{};
-  devices::JointValues present{};
+  hands::JointValues whole{};
+  hands::JointValues present{};
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (forces_[i] == 0.0) continue;
     double gap = rows[i].gap;
@@ -115,7 +115,7 @@ void FingerLoad::follow(const HandAnswer& hand, const devices::JointValues& angl
 }
 
 /// Of the motion since the last new angles, under the mean of the torques that acted then.
-void FingerLoad::count_energy(const devices::JointValues& angles, double dt) noexcept {
+void FingerLoad::count_energy(const hands::JointValues& angles, double dt) noexcept {
   unseen_s_ = std::min(unseen_s_ + dt, kLongestSilence_s);
   const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
   const bool is_new = is_finite && !(has_angles_ && angles == last_angles_);

@@ -59,8 +59,8 @@ class FingerLoad {
 
   /// The torques (Nm, positive toward larger angles) `dt` (seconds) after the last call, beside the torques of the
   /// `springs`: the sum stays within the device's limits. `angles` are those of the glove (rad).
-  const devices::JointValues& update(const HandAnswer& hand, const Load& load, const devices::JointValues& springs,
-                                     const devices::JointValues& angles, double dt) noexcept;
+  const hands::JointValues& update(const HandAnswer& hand, const Load& load, const hands::JointValues& springs,
+                                   const hands::JointValues& angles, double dt) noexcept;
 
   /// J: what the torques may still give.
   double energy() const noexcept { return energy_; }
@@ -69,8 +69,8 @@ class FingerLoad {
   using Vector6 = Eigen::Matrix<double, 6, 1>;
 
   void share(const HandAnswer& hand, const Load& load) noexcept;
-  void follow(const HandAnswer& hand, const devices::JointValues& angles, double dt) noexcept;
-  void count_energy(const devices::JointValues& angles, double dt) noexcept;
+  void follow(const HandAnswer& hand, const hands::JointValues& angles, double dt) noexcept;
+  void count_energy(const hands::JointValues& angles, double dt) noexcept;
 
   static constexpr double kStart_J = 20e-3;
   /// Ticks: at 5 kHz 0.1 s of delay and 0.1 s without a state. A longer delay leaves next to no load.
@@ -80,15 +80,15 @@ class FingerLoad {
   double stiffness_;
   double period_s_;
   double delay_s_ = 0.0;
-  std::array<bool, devices::kGloveJoints> bears_;   // a load
+  std::array<bool, hands::kJoints> bears_;          // a load
   std::array<Vector6, kMaxFingerRows> directions_;  // of the forces: force, and torque by the radius
   std::array<double, kMaxFingerRows> forces_{};     // N
-  devices::JointValues borne_{};                    // Nm: on segments that are on the part
-  devices::JointValues fading_{};                   // share that is left of it where they leave
-  devices::JointValues torques_{};
-  std::vector<devices::JointValues> given_;  // a ring: the torques of the last ticks
+  hands::JointValues borne_{};                      // Nm: on segments that are on the part
+  hands::JointValues fading_{};                     // share that is left of it where they leave
+  hands::JointValues torques_{};
+  std::vector<hands::JointValues> given_;  // a ring: the torques of the last ticks
   std::size_t newest_ = 0;
-  devices::JointValues last_angles_{};
+  hands::JointValues last_angles_{};
   bool has_angles_ = false;
   double unseen_s_ = 0.0;  // since the angles last changed
   double energy_ = kStart_J;

@@ -14,7 +14,7 @@ namespace {
 const FingerHand& checked_wrist(const FingerHand& hand) {
   for (const WristJoint& joint : hand.wrist) {
     const bool is_axis = std::abs(joint.axis_J.norm() - 1.0) < 1e-6;  // false for NaN
-    if (joint.angle < devices::kGloveJoints && is_axis && joint.X_PJ.matrix().allFinite()) continue;
+    if (joint.angle < hands::kJoints && is_axis && joint.X_PJ.matrix().allFinite()) continue;
     throw std::invalid_argument("a joint of the wrist needs a joint of the glove, a pose, and an axis of unit length");
   }
   return hand;
@@ -66,11 +66,11 @@ void FingersOfHand::set_link_delay(std::chrono::nanoseconds delay) noexcept {
   load_.set_link(std::chrono::duration<double>(device_delay_ + delay).count(), forces_.stiffness());
 }
 
-devices::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,
-                                            std::chrono::nanoseconds age, const FingerLoad::Load& load,
-                                            double dt) noexcept {
-  devices::JointValues sum = forces_.update(state.joint_angles, answer, age);
-  const devices::JointValues& of_load = load_.update(answer, load, sum, state.joint_angles, dt);
+hands::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,
+                                          std::chrono::nanoseconds age, const FingerLoad::Load& load,
+                                          double dt) noexcept {
+  hands::JointValues sum = forces_.update(state.joint_angles, answer, age);
+  const hands::JointValues& of_load = load_.update(answer, load, sum, state.joint_angles, dt);
   for (std::size_t j = 0; j < sum.size(); ++j)
     sum[j] += of_load[j];
   return sum;

@@ -37,8 +37,8 @@ class FingersOfHand {
 
   void set_link_delay(std::chrono::nanoseconds delay) noexcept;
   /// Torques (Nm) of the springs at the joints, and of the load of the held part.
-  devices::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
-                               const FingerLoad::Load& load, double dt) noexcept;
+  hands::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
+                             const FingerLoad::Load& load, double dt) noexcept;
 
   /// Notes the newest state if it can be trusted, or null, and the part that the hand holds.
   void note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept;
@@ -50,8 +50,8 @@ class FingersOfHand {
   FingerForces forces_;
   FingerLoad load_;
   std::chrono::nanoseconds device_delay_;
-  devices::JointValues angles_{};  // of the wrist, as the ghost has them
-  bool is_found_ = false;          // the angles are those of a state
+  hands::JointValues angles_{};  // of the wrist, as the ghost has them
+  bool is_found_ = false;        // the angles are those of a state
   std::int64_t decision_ = 0;
   GhostOfHand ghost_;
   std::optional<std::chrono::nanoseconds> time_seen_;  // of the last state that could be trusted

@@ -68,7 +68,7 @@ class HandLedger {
     double asked_for_others = 0.0;
   };
 
-  std::array<Account, kMaxHands> accounts_{};
+  std::array<Account, hands::kMaxHands> accounts_{};
   double given_up_ = 0.0;
 };
 

@@ -18,7 +18,7 @@ devices::HapticPartState part_after(const GhostOfPart& ghost, const PartAnswer& 
   return part;
 }
 
-devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set, const devices::VisibleHand& visible,
+devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set, const hands::VisibleHand& visible,
                                     const devices::GloveState& state) noexcept {
   const devices::GloveCommand& command = tick.command.values();
   const Eigen::Vector3d& p_WH = state.X_WH.translation();
@@ -57,7 +57,7 @@ void add_contacts(const ContactSet& set, devices::HapticState& sample) noexcept 
 
 devices::HapticState make_sample(const TickRecord& record, const ContactSet& set,
                                  std::span<const devices::GloveState* const> states) noexcept {
-  static_assert(contact::kMaxParts == devices::kHapticParts && kMaxHands == devices::kHapticHands);
+  static_assert(contact::kMaxParts == devices::kHapticParts && hands::kMaxHands == devices::kHapticHands);
   const HapticTick& tick = record.tick;
   devices::HapticState sample;
   sample.sequence = record.sequence;

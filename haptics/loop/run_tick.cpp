@@ -9,7 +9,7 @@ namespace glissade::haptics {
 
 void run_tick(HapticKernel& kernel, TickRecord& record, const ContactSet& set) noexcept {
   const auto hand_count = static_cast<std::size_t>(record.hand_count);
-  std::array<const devices::GloveState*, kMaxHands> newest{};
+  std::array<const devices::GloveState*, hands::kMaxHands> newest{};
   for (std::size_t h = 0; h < hand_count; ++h)
     newest[h] = record.has_state[h] ? &record.states[h] : nullptr;
   const std::span<const devices::GloveState* const> states{newest.data(), hand_count};

@@ -12,7 +12,7 @@ bool are_small(const Eigen::MatrixBase<Numbers>& numbers) {
   return (numbers.array().abs() < kGreatest).all();
 }
 
-bool are_numbers(const devices::JointValues& values) {
+bool are_numbers(const hands::JointValues& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 

@@ -96,12 +96,12 @@ finger_row_t message_of(std::size_t hand, const FingerRow& row) {
 }
 
 bool has_fingers(const HandAnswer& answer) {
-  return answer.visible.activity != devices::HandActivity::kNone;
+  return answer.visible.activity != hands::HandActivity::kNone;
 }
 
 /// Up to the last one with fingers.
 std::size_t hands_with_fingers(const ContactSet& set) {
-  std::size_t count = kMaxHands;
+  std::size_t count = hands::kMaxHands;
   while (count > 0 && !has_fingers(set.hands[count - 1]))
     --count;
   return count;
@@ -144,8 +144,8 @@ bool is_message_of(const AnswerRecord& record, std::span<const std::uint8_t> byt
 }
 
 std::optional<ConsumedByAnswer> decode_answer(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::int32_t, 4> kLargest{contact::kMaxParts, contact::kMaxParts * kMaxContactRows, kMaxHands,
-                                                 kMaxHands * kMaxFingerRows};
+  constexpr std::array<std::int32_t, 4> kLargest{contact::kMaxParts, contact::kMaxParts * kMaxContactRows,
+                                                 hands::kMaxHands, hands::kMaxHands * kMaxFingerRows};
   const auto message = from_bytes<contact_set_t>(bytes, kLargest);
   if (!message) return std::nullopt;
   ConsumedByAnswer record;

@@ -8,8 +8,8 @@
 
 namespace glissade::haptics {
 
-AnswersAhead::AnswersAhead(Answerer& answerer, std::chrono::nanoseconds first)
-    : answerer_(answerer), first_(first), thread_([this](const std::stop_token& stop) {
+AnswersAhead::AnswersAhead(Answer answer)
+    : answer_(std::move(answer)), thread_([this](const std::stop_token& stop) {
         realtime::name_this_thread("simulation");
         run(stop);
       }) {}
@@ -59,7 +59,7 @@ void AnswersAhead::run(const std::stop_token& stop) {
     questions_.pop_front();
     lock.unlock();
     try {
-      answerer_.answer(answer->ghosts, first_, answer->set);
+      answer_(answer->ghosts, answer->set);
       lock.lock();
       answers_.push_back(std::move(answer));
     } catch (...) {

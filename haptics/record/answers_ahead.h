@@ -4,11 +4,11 @@
 /// in which all ghosts are known from the beginning on.
 
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
 #include <exception>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <stop_token>
@@ -18,16 +18,15 @@
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/recording.h>
 
-#include "loop/answer.h"
-
 namespace glissade::haptics {
 
 /// Thread-safety: one thread owns the object. It is not real-time safe.
 class AnswersAhead {
  public:
-  /// The thread calls `answerer`, which must outlive this object and must not be used by others. `first` is as in
-  /// `Answerer::answer`.
-  AnswersAhead(Answerer& answerer, std::chrono::nanoseconds first);
+  using Answer = std::function<void(const Ghosts& ghosts, ContactSet& set)>;
+
+  /// Only the thread calls `answer`.
+  explicit AnswersAhead(Answer answer);
   AnswersAhead(const AnswersAhead&) = delete;
   AnswersAhead& operator=(const AnswersAhead&) = delete;
   /// Waits for the answer under way, and gives up the others.
@@ -50,8 +49,7 @@ class AnswersAhead {
  private:
   void run(const std::stop_token& stop);
 
-  Answerer& answerer_;
-  std::chrono::nanoseconds first_;
+  Answer answer_;
   std::size_t asked_ = 0;
   std::size_t taken_ = 0;
   std::mutex mutex_;

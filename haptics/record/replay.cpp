@@ -4,10 +4,10 @@
 #include <span>
 #include <utility>
 
-#include <glissade/haptics/loop_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
 #include "loop/answer.h"
+#include "loop/kernel_hands.h"
 #include "loop/run_tick.h"
 #include "record/answers_ahead.h"
 #include "record/record_messages.h"
@@ -37,16 +37,17 @@ std::chrono::microseconds logged(std::chrono::nanoseconds time) {
 
 }  // namespace
 
-Replay::Replay(const SimulationInLoop& simulation, const std::vector<KernelHand>& hands,
-               std::chrono::nanoseconds period, RecordingHead head)
-    : kernel_(kernel_parts(simulation->parts()), hands, period),
-      part_count_(static_cast<std::int32_t>(simulation->parts().part_count())),
+Replay::Replay(grasping::GraspSimulation& simulation, std::vector<KernelHand> hands, std::chrono::nanoseconds period,
+               RecordingHead head)
+    : kernel_(kernel_parts(simulation.parts()), with_fingers(hands, simulation), period),
+      part_count_(static_cast<std::int32_t>(simulation.part_count())),
       events_(std::move(head)),
       answerer_(std::make_unique<Answerer>(simulation)) {
   record_.hand_count = static_cast<std::int32_t>(hands.size());
   sets_[0] = std::make_unique<AnswerRecord>();
   sets_[0]->set = answerer_->at_start();
-  ahead_ = std::make_unique<AnswersAhead>(*answerer_, period);
+  ahead_ = std::make_unique<AnswersAhead>(
+      [this, period](const Ghosts& ghosts, ContactSet& set) { answerer_->answer(ghosts, period, set); });
 }
 
 Replay::~Replay() = default;

@@ -100,7 +100,7 @@ bool is_message_of(const TickRecord& record, std::span<const std::uint8_t> bytes
 }
 
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::int32_t, 3> kLargest{HoldRequests::kMost, kMaxHands, contact::kMaxParts};
+  constexpr std::array<std::int32_t, 3> kLargest{HoldRequests::kMost, hands::kMaxHands, contact::kMaxParts};
   const auto message = from_checked_bytes<haptic_tick_t>(bytes, kLargest);
   if (!message) return std::nullopt;
   TickRecord record;

@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 namespace glissade::reference {
 

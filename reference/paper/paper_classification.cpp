@@ -5,7 +5,6 @@
 #include <optional>
 #include <tuple>
 
-#include <glissade/geometry/triangle_features.h>
 #include <glissade/geometry/triangle_pair.h>
 
 namespace glissade::reference {

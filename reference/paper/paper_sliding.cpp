@@ -9,7 +9,7 @@
 #include <glissade/base/assert.h>
 #include <glissade/contact/metaphor.h>
 #include <glissade/contact/spring.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 namespace glissade::reference {
 namespace {
@@ -37,7 +37,7 @@ contact::ContactKind contact_kind_of(PaperContactKind kind) {
 PaperSliding::PaperSliding(std::vector<contact::Obstacle> obstacles, std::shared_ptr<const contact::SlidingPart> part_V,
                            const Eigen::Isometry3d& X_WV_start, const PaperSlidingOptions& options)
     : collision_object_(std::move(obstacles), std::move(part_V)),
-      stiffness_(options.stiffness.value_or(contact::default_stiffness(part().radius()))),
+      stiffness_(options.stiffness.value_or(contact::stiffness_of_part(part().radius()))),
       metaphor_(options.metaphor),
       bracket_(options.bracket),
       max_cycles_(options.max_cycles) {

@@ -36,7 +36,7 @@ namespace glissade::reference {
 
 struct PaperSlidingOptions {
   contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;
-  /// Default: `default_stiffness` of the part's radius.
+  /// Default: `stiffness_of_part` of the part's radius.
   std::optional<contact::CouplingStiffness> stiffness{};
   /// Bound (metres) of the motion of any point of the part between the two ends of a finished bisection.
   double bracket = 0.5e-6;

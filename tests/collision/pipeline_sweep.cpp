@@ -13,7 +13,7 @@
 
 #include <glissade/collision/collision_pipeline.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 #include "random_numbers.h"
 #include "sweeps/sweep_meshes.h"

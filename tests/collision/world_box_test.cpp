@@ -6,8 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <glissade/collision/dop_query.h>
+#include <glissade/geometry/displacement.h>
 #include <glissade/geometry/mesh_generators.h>
-#include <glissade/geometry/rigid_pose.h>
 
 #include "poses.h"
 #include "random_numbers.h"

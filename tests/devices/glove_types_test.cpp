@@ -17,8 +17,8 @@ void expect_refused(const DeviceDescriptor& descriptor, const std::string& field
 }
 
 TEST(GloveJoints, HaveDistinctNames) {
-  EXPECT_EQ(std::set(kGloveJointNames.begin(), kGloveJointNames.end()).size(), 22U);
-  EXPECT_EQ(kGloveJointNames[18], "little_ring_abduction");
+  EXPECT_EQ(std::set(hands::kJointNames.begin(), hands::kJointNames.end()).size(), 22U);
+  EXPECT_EQ(hands::kJointNames[18], "little_ring_abduction");
 }
 
 TEST(DeviceDescriptor, TheSimulatedGlovesIsValid) {

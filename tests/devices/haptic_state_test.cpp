@@ -52,9 +52,9 @@ HapticState some_state() {
   hand.glove_reasons.is_disabled = true;
   hand.state_age = milliseconds(14);
   hand.command_age = milliseconds(15);
-  hand.visible.activity = HandActivity::kHolding;
-  hand.visible.grasp = GraspKind::kPrecision;
-  hand.visible.form = GraspForm::kKey;
+  hand.visible.activity = hands::HandActivity::kHolding;
+  hand.visible.grasp = hands::GraspType::kPrecision;
+  hand.visible.form = hands::GraspForm::kKey;
   hand.visible.touching = 0x888;
   hand.visible.X_WH = Eigen::Translation3d(0.1, 0.2, 0.3) * Eigen::AngleAxisd(0.7, Vector3d::UnitZ());
   hand.visible.angles[4] = 0.75;
@@ -118,9 +118,9 @@ TEST(HapticState, ArrivesAsItWasSent) {
   EXPECT_TRUE(hand.glove_reasons.is_disabled);
   EXPECT_EQ(hand.state_age, milliseconds(14));
   EXPECT_EQ(hand.command_age, milliseconds(15));
-  EXPECT_EQ(hand.visible.activity, HandActivity::kHolding);
-  EXPECT_EQ(hand.visible.grasp, GraspKind::kPrecision);
-  EXPECT_EQ(hand.visible.form, GraspForm::kKey);
+  EXPECT_EQ(hand.visible.activity, hands::HandActivity::kHolding);
+  EXPECT_EQ(hand.visible.grasp, hands::GraspType::kPrecision);
+  EXPECT_EQ(hand.visible.form, hands::GraspForm::kKey);
   EXPECT_EQ(hand.visible.touching, 0x888);
   EXPECT_TRUE(hand.visible.X_WH.isApprox(sent.hands[1].visible.X_WH));
   EXPECT_EQ(hand.visible.angles, sent.hands[1].visible.angles);
@@ -128,28 +128,28 @@ TEST(HapticState, ArrivesAsItWasSent) {
 }
 
 TEST(HapticState, EveryActivityAndGraspHasItsNumberAndName) {
-  EXPECT_EQ(static_cast<std::int32_t>(HandActivity::kWaiting), haptic_hand_t::ACTIVITY_WAITING);
-  EXPECT_EQ(static_cast<std::int32_t>(HandActivity::kHolding), haptic_hand_t::ACTIVITY_HOLDING);
-  EXPECT_EQ(static_cast<std::int32_t>(GraspKind::kPower), haptic_hand_t::GRASP_POWER);
-  EXPECT_EQ(static_cast<std::int32_t>(GraspForm::kGravity), haptic_hand_t::FORM_GRAVITY);
-  for (std::int32_t number = 1; number < kGraspForms; ++number)
-    EXPECT_NE(name_of(static_cast<GraspForm>(number)), "") << number;
-  for (std::int32_t number = 1; number < kHandActivities; ++number)
-    EXPECT_NE(name_of(static_cast<HandActivity>(number)), "none") << number;
-  for (std::int32_t number = 1; number < kGraspKinds; ++number)
-    EXPECT_NE(name_of(static_cast<GraspKind>(number)), "none") << number;
+  EXPECT_EQ(static_cast<std::int32_t>(hands::HandActivity::kWaiting), haptic_hand_t::ACTIVITY_WAITING);
+  EXPECT_EQ(static_cast<std::int32_t>(hands::HandActivity::kHolding), haptic_hand_t::ACTIVITY_HOLDING);
+  EXPECT_EQ(static_cast<std::int32_t>(hands::GraspType::kPower), haptic_hand_t::GRASP_POWER);
+  EXPECT_EQ(static_cast<std::int32_t>(hands::GraspForm::kGravity), haptic_hand_t::FORM_GRAVITY);
+  for (std::int32_t number = 1; number < hands::kGraspForms; ++number)
+    EXPECT_NE(name_of(static_cast<hands::GraspForm>(number)), "") << number;
+  for (std::int32_t number = 1; number < hands::kHandActivities; ++number)
+    EXPECT_NE(name_of(static_cast<hands::HandActivity>(number)), "none") << number;
+  for (std::int32_t number = 1; number < hands::kGraspTypes; ++number)
+    EXPECT_NE(name_of(static_cast<hands::GraspType>(number)), "none") << number;
 }
 
 TEST(HapticState, AnActivityOfANewerSimulationIsNoneAndNoError) {
   haptic_state_t message = message_of(some_state());
-  message.hands[1].activity = kHandActivities;
+  message.hands[1].activity = hands::kHandActivities;
   message.hands[1].grasp = -1;
-  message.hands[1].form = kGraspForms;
+  message.hands[1].form = hands::kGraspForms;
   HapticState received;
   ASSERT_EQ(decoded(message, received), MessageError::kNone);
-  EXPECT_EQ(received.hands[1].visible.activity, HandActivity::kNone);
-  EXPECT_EQ(received.hands[1].visible.grasp, GraspKind::kNone);
-  EXPECT_EQ(received.hands[1].visible.form, GraspForm::kNone);
+  EXPECT_EQ(received.hands[1].visible.activity, hands::HandActivity::kNone);
+  EXPECT_EQ(received.hands[1].visible.grasp, hands::GraspType::kNone);
+  EXPECT_EQ(received.hands[1].visible.form, hands::GraspForm::kNone);
 }
 
 TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {

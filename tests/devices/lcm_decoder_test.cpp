@@ -17,12 +17,12 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 TEST(GloveInfo, OfADeviceThatCannotBeIsRefused) {
   DeviceDescriptor descriptor = simulated_glove_descriptor();
   GloveInfo info;
-  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kNone);
+  EXPECT_EQ(decode(encode(GloveInfo{1, 1, hands::HandSide::kRight, descriptor}), info), MessageError::kNone);
   descriptor.max_force = kNan;
-  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
+  EXPECT_EQ(decode(encode(GloveInfo{1, 1, hands::HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
   descriptor.max_force = 20.0;
   descriptor.update_rate = 1e-300;
-  EXPECT_EQ(decode(encode(GloveInfo{1, 1, HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
+  EXPECT_EQ(decode(encode(GloveInfo{1, 1, hands::HandSide::kRight, descriptor}), info), MessageError::kOutOfRange);
 }
 
 TEST_F(LcmLink, RefusesMessagesOfTheWrongSize) {

@@ -36,7 +36,7 @@ TEST_F(LcmLink, StatesArriveWhole) {
   sent.X_WH = Eigen::Translation3d(0.1, -0.2, 0.3) * Eigen::AngleAxisd(2.0, Vector3d(1, 2, 3).normalized());
   sent.v_WH = Vector3d(1, 2, 3);
   sent.w_WH = Vector3d(-4, 5, -6);
-  for (std::size_t i = 0; i < kGloveJoints; ++i)
+  for (std::size_t i = 0; i < hands::kJoints; ++i)
     sent.joint_angles[i] = 0.01 * static_cast<double>(i);
 
   GloveState received;
@@ -59,7 +59,7 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   descriptor.max_mean_force = 4.0;
   descriptor.joint_damping = 0.03;
   descriptor.frozen = milliseconds(50);
-  LcmGloveHost host(bus, descriptor, {.device = 3, .side = HandSide::kLeft});
+  LcmGloveHost host(bus, descriptor, {.device = 3, .side = hands::HandSide::kLeft});
   GloveSearch search(bus);
   std::atomic<bool> should_end{false};
   std::thread driver([&] {
@@ -73,7 +73,7 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   should_end = true;
   driver.join();
   ASSERT_TRUE(found.has_value());
-  EXPECT_EQ(found->side, HandSide::kLeft);
+  EXPECT_EQ(found->side, hands::HandSide::kLeft);
   EXPECT_EQ(found->descriptor.name, "a glove whose name has more tha");
   EXPECT_EQ(found->descriptor.max_mean_force, 4.0);
   EXPECT_EQ(found->descriptor.joint_damping, 0.03);
@@ -96,12 +96,12 @@ TEST(GloveInfo, ASearchTellsWhyAGloveIsNotFound) {
   GloveSearch search(bus);
   EXPECT_THAT(search.troubles(), testing::IsEmpty());
   bus->publish("GLOVE_STATE", encoded(good_state(1)));
-  Bytes of_another_version = encode(GloveInfo{1, 1, HandSide::kRight, simulated_glove_descriptor()});
+  Bytes of_another_version = encode(GloveInfo{1, 1, hands::HandSide::kRight, simulated_glove_descriptor()});
   of_another_version[11] ^= 1U;  // the version follows the eight bytes of the type
   bus->publish("GLOVE_INFO", of_another_version);
   DeviceDescriptor impossible = simulated_glove_descriptor();
   impossible.max_force = kNan;
-  bus->publish("GLOVE_INFO", encode(GloveInfo{1, 1, HandSide::kRight, impossible}));
+  bus->publish("GLOVE_INFO", encode(GloveInfo{1, 1, hands::HandSide::kRight, impossible}));
   EXPECT_FALSE(search.wait_for(1, milliseconds(200)).has_value());
   EXPECT_THAT(search.troubles(), testing::UnorderedElementsAre(
                                      "announcements on GLOVE_INFO are refused: they have another version of the type",
@@ -209,7 +209,7 @@ TEST_F(BothEnds, ASecondGloveOfTheSameNumberIsNotListenedTo) {
 }
 
 TEST_F(BothEnds, AGloveOfAnotherNumberIsAnotherGlove) {
-  LcmGloveHost left(bus, descriptor, {.device = 2, .side = HandSide::kLeft});
+  LcmGloveHost left(bus, descriptor, {.device = 2, .side = hands::HandSide::kLeft});
   LcmGlove left_glove(bus, descriptor, {.device = 2});
   GloveState left_state;
   left_state.X_WH.translation().x() = 0.5;

@@ -208,7 +208,7 @@ TEST_F(Envelope, AnEmergencyStopIsForEver) {
 
 TEST_F(Envelope, NumbersThatAreNotFiniteLetTheForceFade) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
-    for (std::size_t place = 0; place < 6 + kGloveJoints; ++place) {
+    for (std::size_t place = 0; place < 6 + hands::kJoints; ++place) {
       GloveCommand wanted = settle(pull(15.0)).values();
       if (place < 3) {
         wanted.f_H_W[static_cast<Eigen::Index>(place)] = bad;

@@ -214,7 +214,7 @@ class RandomHand {
   void say_anything() {
     if (random_() % 2 == 0) command_.f_H_W = any_vector(random_);
     if (random_() % 2 == 0) command_.t_H_W = any_vector(random_);
-    if (random_() % 2 == 0) command_.joint_torques[random_() % kGloveJoints] = any_number(random_);
+    if (random_() % 2 == 0) command_.joint_torques[random_() % hands::kJoints] = any_number(random_);
     if (random_() % 4 == 0) command_.supply = any_number(random_);
     if (random_() % 4 == 0) command_.state_time = nanoseconds(static_cast<std::int64_t>(random_()));
     if (random_() % 4 == 0) state_.time = nanoseconds(static_cast<std::int64_t>(random_()));
@@ -261,7 +261,7 @@ TEST(SafetyEnvelope, NoRandomCommandOrStateBreaksALimit) {
     const double t_step = (out.t_H_W - last.t_H_W).norm();
     ASSERT_LE(f_step, device.max_force_rate * dt * kSlack + kTolerance) << i;
     ASSERT_LE(t_step, device.max_torque_rate * dt * kSlack + kTolerance) << i;
-    for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+    for (std::size_t joint = 0; joint < hands::kJoints; ++joint) {
       ASSERT_LE(std::abs(out.joint_torques[joint]), kDevice.max_joint_torque) << i;
       ASSERT_LE(std::abs(out.joint_torques[joint] - last.joint_torques[joint]),
                 device.max_joint_torque_rate * dt * kSlack + kTolerance)

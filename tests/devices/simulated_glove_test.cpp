@@ -176,7 +176,7 @@ TEST(SimulatedGlove, FingersFollowTheGrip) {
 TEST(SimulatedGlove, FingersFollowTheirOwnScriptInsteadOfTheGrip) {
   SimulatedGloveParameters parameters;
   parameters.grasp_posture.fill(0.3);
-  JointValues bent{};
+  hands::JointValues bent{};
   bent[4] = 0.8;
   parameters.fingers = {{milliseconds(100), {}}, {milliseconds(200), bent}, {milliseconds(1200), bent}};
   SimulatedGlove glove(hold({0, 0, 0}), parameters);
@@ -189,7 +189,7 @@ TEST(SimulatedGlove, FingersFollowTheirOwnScriptInsteadOfTheGrip) {
 }
 
 TEST(SimulatedGlove, AnglesAreLinearBetweenTimesAndConstantBeyond) {
-  JointValues bent{};
+  hands::JointValues bent{};
   bent[2] = 0.4;
   const std::vector<TimedAngles> timed{{milliseconds(10), {}}, {milliseconds(20), bent}};
   EXPECT_EQ(angles_at(timed, milliseconds(0))[2], 0.0);

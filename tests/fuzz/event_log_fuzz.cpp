@@ -11,10 +11,10 @@
 #include <vector>
 
 #include <glissade/base/byte_order.h>
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/spring.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/haptics/recording.h>
 
@@ -38,7 +38,7 @@ devices::SimulatedGlove hand() {
       geometry::PoseTrajectory({{milliseconds(0), at(0.0, 0.0, 0.0)}, {milliseconds(8), at(0.012, 0.0, 0.0)}}));
 }
 
-contact::MultiPartSliding parts() {
+grasping::GraspSimulation parts() {
   return {{test_support::wall(0.03)},
           {{.part_V = test_support::cube(0.04), .stiffness = contact::CouplingStiffness{1000.0, 1.0}}}};
 }
@@ -56,7 +56,7 @@ std::string log_path() {
 std::string recorded(std::int64_t ticks) {
   haptics::LogRecorder recorder(log_path(), head());
   devices::SimulatedGlove glove = hand();
-  contact::MultiPartSliding sliding = parts();
+  grasping::GraspSimulation sliding = parts();
   haptics::run_offline({{.device = &glove}}, sliding, ticks, [](const devices::HapticState&) {},
                        {.before_tick =
                             [](std::int64_t tick, haptics::HoldRequests& requests) {
@@ -79,7 +79,7 @@ bool is_known(const devices::LogEvent& event) {
 }
 
 bool try_log(devices::EventLogReader& log) {
-  contact::MultiPartSliding sliding = parts();
+  grasping::GraspSimulation sliding = parts();
   haptics::Replay replay(sliding, {{.device = hand().descriptor(), .part = 0}}, kTickPeriod, head());
   bool goes_on = true;
   while (const std::optional<devices::LogEvent> event = log.next()) {

@@ -148,7 +148,7 @@ GloveState state_at(int tick) {
 }
 
 std::string state_datagram(int tick) {
-  return datagram(kGloveStateChannel, encode(StateHeader{1, 7, 0, HandSide::kLeft}, state_at(tick)));
+  return datagram(kGloveStateChannel, encode(StateHeader{1, 7, 0, hands::HandSide::kLeft}, state_at(tick)));
 }
 
 std::string command_datagram(int tick) {
@@ -162,14 +162,14 @@ std::string command_datagram(int tick) {
 }
 
 std::string info_datagram() {
-  return datagram(kGloveInfoChannel, encode(GloveInfo{1, 7, HandSide::kLeft, simulated_glove_descriptor()}));
+  return datagram(kGloveInfoChannel, encode(GloveInfo{1, 7, hands::HandSide::kLeft, simulated_glove_descriptor()}));
 }
 
 std::string viewer_datagram() {
   HapticState state;
   state.patch_count = 1;
   state.patches[0] = {1, 4, {0.1F, 0.0F, 0.0F}, Eigen::Vector3f::UnitZ(), 0.02F};
-  state.hands[0].visible.form = GraspForm::kKey;
+  state.hands[0].visible.form = hands::GraspForm::kKey;
   state.hands[0].visible.touching = 0x8888;
   return datagram(kHapticStateChannel, encode(state));
 }

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/geometry/rigid_pose.h>
+#include <glissade/geometry/displacement.h>
 
 #include "random_numbers.h"
 

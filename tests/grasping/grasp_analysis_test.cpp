@@ -59,13 +59,13 @@ TEST(GraspAnalysis, OneSegmentOrThePalmAlonePushes) {
 
 TEST(GraspAnalysis, TheHapticLoopTellsTheReasonInNumbers) {
   const Grasp grasp = grasp_of({touch(kPalm), touch(middle(Finger::kIndex)), touch(outer(Finger::kLittle))});
-  devices::VisibleHand hand;
-  hand.grasp = devices::GraspKind::kPower;
+  hands::VisibleHand hand;
+  hand.grasp = hands::GraspType::kPower;
   hand.form = grasp.form;
   hand.touching = grasp.segments.bits();
   EXPECT_EQ(hand.touching, 1 + (1 << (4 * 2 + 2)) + (1 << (4 * 5 + 3))) << "as the message describes it";
   EXPECT_EQ(reason_of(grasping::grasp_of(hand)), reason_of(grasp));
-  EXPECT_EQ(reason_of(grasping::grasp_of(devices::VisibleHand{})), "none: nothing touches");
+  EXPECT_EQ(reason_of(grasping::grasp_of(hands::VisibleHand{})), "none: nothing touches");
 }
 
 TEST(GraspAnalysis, TellsWhatAGraspLacks) {

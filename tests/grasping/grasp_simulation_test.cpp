@@ -1,6 +1,7 @@
 /// The life of a grasp: grasp, carry, slide, push, let go, one and two hands, and a hand that is lost.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -15,7 +16,7 @@
 namespace glissade::grasping {
 namespace {
 
-using devices::HandActivity;
+using hands::HandActivity;
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
@@ -208,74 +209,66 @@ TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6);
 }
 
-haptics::Ghosts ghosts_of(const Isometry3d& X_WH, bool is_tracked, std::int32_t part) {
-  haptics::Ghosts ghosts;
-  ghosts.parts[0].X_WG = at(0.095, 0.0, -0.056);
-  ghosts.hands[0] = {.is_tracked = is_tracked, .X_WH = X_WH, .angles = {}, .part = part};
-  return ghosts;
+const Isometry3d kBallAtStart = at(0.095, 0.0, -0.056);
+
+/// A call in which the test decides what the hand holds; the ball, if it is held, is to be at X_WG.
+void lead(HandAndBall& scene, const std::optional<Posture>& posture, std::optional<std::size_t> part,
+          const Isometry3d& X_WG = kBallAtStart) {
+  scene.simulation.advance(std::array{X_WG}, std::array{HandTarget{posture, part}}, 1.0);
 }
 
 // A hand that is only carried on from where it was lost would meet the wall.
-TEST(GraspSimulation, AHandThatIsLostAndLetsGoInTheLoopBeginsAnewWhereItIsFree) {
+TEST(GraspSimulation, AHandThatIsLostAndLetsGoBeginsAnewWhereItIsFreeThoughOthersDecide) {
   HandAndBall scene;
-  const Isometry3d here = at(0.0, 0.0, 0.1);
+  const Posture here = moved(open_hand(), 0.0, 0.0, 0.1);
   for (int ms = 0; ms < 3; ++ms)
-    scene.simulation.advance(ghosts_of(here, true, ms == 0 ? -1 : 0), 1.0);
+    lead(scene, here, ms == 0 ? std::nullopt : std::optional<std::size_t>(0));
   ASSERT_EQ(scene.simulation.held_part(0), 0U);
-  scene.simulation.advance(ghosts_of(here, false, 0), 1.0);
-  scene.simulation.advance(ghosts_of(here, false, -1), 1.0);
+  lead(scene, {}, 0);
+  lead(scene, {}, {});
   EXPECT_EQ(scene.simulation.activity(0), HandActivity::kLost);
-  const Isometry3d beyond = at(0.5, 0.0, 0.1);
-  scene.simulation.advance(ghosts_of(beyond, true, -1), 1.0);
+  const Posture beyond = moved(open_hand(), 0.5, 0.0, 0.1);
+  lead(scene, beyond, {});
   EXPECT_EQ(scene.simulation.activity(0), HandActivity::kFree);
-  EXPECT_TRUE(scene.simulation.posture(0).X_WR.isApprox(beyond));
+  EXPECT_TRUE(scene.simulation.posture(0).X_WR.isApprox(beyond.X_WR));
 }
 
-TEST(GraspSimulation, DecidesNothingNewInTheLoopAboutAHandThatIsLost) {
+TEST(GraspSimulation, DecidesNothingNewAboutAHandThatIsLost) {
   HandAndBall scene;
-  haptics::ContactSet set;
-  scene.simulation.advance(ghosts_of(at(0.0, 0.0, 0.1), true, -1), 1.0);
+  lead(scene, moved(open_hand(), 0.0, 0.0, 0.1), {});
   for (int ms = 0; ms < 6; ++ms) {
-    scene.simulation.advance(ghosts_of(at(0.0, 0.0, 0.1), false, ms % 2 == 0 ? 0 : -1), 1.0);
-    scene.simulation.tell_hands(set);
-    EXPECT_EQ(set.hands[0].decision, 0) << ms;
+    lead(scene, {}, ms % 2 == 0 ? std::optional<std::size_t>(0) : std::nullopt);
+    EXPECT_EQ(scene.simulation.decision(0).number, 0) << ms;
   }
 }
 
-/// The loop's ghosts of a hand that closed round the ball, and of the ball, which the loop holds if `part` is 0.
-haptics::Ghosts ghosts_of(const Posture& hand, bool is_tracked, std::int32_t part, const Isometry3d& X_WG) {
-  haptics::Ghosts ghosts = ghosts_of(hand.X_WR, is_tracked, part);
-  std::copy(hand.values.begin(), hand.values.end(), ghosts.hands[0].angles.begin());
-  ghosts.parts[0].X_WG = X_WG;
-  ghosts.parts[0].is_held = part >= 0;
-  return ghosts;
-}
-
-// The haptic thread may follow a decision only when the hand is lost, or when the simulation has lost it before. The
+// Whoever decides may follow a decision only when the hand is lost, or when the simulation has lost it before. The
 // hand then begins where its palm is away from the ball, with fingers that would be inside if they held it.
-TEST(GraspSimulation, AHandThatIsLostTakesNoHoldInTheLoop) {
+TEST(GraspSimulation, AHandThatIsLostTakesNoHoldThoughOthersDecideSo) {
   for (const bool follows_late : {false, true}) {
     HandAndBall scene;
-    haptics::ContactSet set;
-    const auto advance = [&](const haptics::Ghosts& ghosts) {
-      scene.simulation.advance(ghosts, 1.0);
-      scene.simulation.tell_hands(set);
+    const HoldDecision& decision = scene.simulation.decision(0);
+    const auto advance = [&](const std::optional<Posture>& posture, std::optional<std::size_t> part,
+                             const Isometry3d& X_WG) {
+      lead(scene, posture, part, X_WG);
       ASSERT_FALSE(is_present(scene.simulation.activity(0)) && scene.collides());
     };
-    for (int ms = 0; ms < 400 && set.hands[0].part < 0; ++ms)
-      advance(ghosts_of(bent_hand(1.2 * std::min(1.0, ms / 150.0)), true, -1, scene.X_WV()));
-    ASSERT_EQ(set.hands[0].part, 0);
+    for (int ms = 0; ms < 400 && !decision.part; ++ms)
+      advance(bent_hand(1.2 * std::min(1.0, ms / 150.0)), {}, scene.X_WV());
+    ASSERT_EQ(decision.part, 0U);
     Posture closed = bent_hand(1.2);
-    if (follows_late) advance(ghosts_of(closed, false, -1, scene.X_WV()));
+    if (follows_late) advance({}, {}, scene.X_WV());
     const Isometry3d X_WV = scene.X_WV();
+    scene.simulation.take_part(0, X_WV);
     closed.values[kWristFlexionValue] = -1.0;
     hand_chain()->clamp(closed.values);
     for (int ms = 0; ms < 3; ++ms) {
-      advance(ghosts_of(closed, ms > 0, ms < 2 ? 0 : -1, at(0.0, 0.0, -1e-3 * ms) * X_WV));
+      advance(ms > 0 ? std::optional(closed) : std::nullopt, ms < 2 ? std::optional<std::size_t>(0) : std::nullopt,
+              at(0.0, 0.0, -1e-3 * ms) * X_WV);
       EXPECT_FALSE(scene.simulation.held_part(0)) << ms;
       EXPECT_EQ(scene.simulation.activity(0), ms > 0 ? HandActivity::kFree : HandActivity::kLost) << ms;
-      EXPECT_EQ(set.hands[0].part, -1) << "the decision is withdrawn, " << ms;
-      EXPECT_EQ(set.hands[0].decision, 2) << ms;
+      EXPECT_FALSE(decision.part) << "the decision is withdrawn, " << ms;
+      EXPECT_EQ(decision.number, 2) << ms;
     }
   }
 }

@@ -17,9 +17,9 @@
 namespace glissade::grasping {
 namespace {
 
-using devices::HandSide;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using hands::HandSide;
 using std::numbers::pi;
 using test_support::RandomNumbers;
 
@@ -32,9 +32,9 @@ std::size_t joint_named(const std::string& name) {
 }
 
 std::size_t value_named(const std::string& name) {
-  const auto* at = std::ranges::find(devices::kGloveJointNames, name);
-  EXPECT_NE(at, devices::kGloveJointNames.end()) << name;
-  return static_cast<std::size_t>(at - devices::kGloveJointNames.begin());
+  const auto* at = std::ranges::find(hands::kJointNames, name);
+  EXPECT_NE(at, hands::kJointNames.end()) << name;
+  return static_cast<std::size_t>(at - hands::kJointNames.begin());
 }
 
 /// Anywhere in the world, within the limits, with a straight wrist.
@@ -57,7 +57,7 @@ TEST(OpenXr, GivesBackThePoseOfEitherHand) {
       ASSERT_TRUE(back.X_WR.isApprox(pose.X_WR, 1e-12)) << "seed " << kConversionSeed;
       for (std::size_t i = 0; i < pose.values.size(); ++i)
         ASSERT_NEAR(back.values[i], pose.values[i], 1e-6)
-            << devices::kGloveJointNames[i] << ", seed " << kConversionSeed << ", run " << run;
+            << hands::kJointNames[i] << ", seed " << kConversionSeed << ", run " << run;
     }
   }
 }
@@ -71,7 +71,7 @@ TEST(OpenXr, TakesTheJointsOfAHandOfOtherSize) {
   const HandPose back = from_openxr(hand, to_openxr(tracked, pose));
   EXPECT_TRUE(back.X_WR.isApprox(pose.X_WR, 1e-12));
   for (std::size_t i = 0; i < 13; ++i)
-    EXPECT_NEAR(back.values[i], pose.values[i], 1e-6) << devices::kGloveJointNames[i];
+    EXPECT_NEAR(back.values[i], pose.values[i], 1e-6) << hands::kJointNames[i];
 }
 
 TEST(OpenXr, PutsABentWristIntoTheRoot) {

@@ -19,7 +19,7 @@ using geometry::TriangleMesh;
 
 std::vector<HandModel> some_hands() {
   std::vector<HandModel> hands;
-  for (const devices::HandSide side : {devices::HandSide::kLeft, devices::HandSide::kRight})
+  for (const hands::HandSide side : {hands::HandSide::kLeft, hands::HandSide::kRight})
     for (const double length_m : {0.12, 0.166, 0.183, 0.21})
       for (const double breadth : {0.38, 0.46, 0.52})
         hands.push_back(make_hand({.length_m = length_m, .breadth_m = breadth * length_m, .side = side}));
@@ -61,7 +61,7 @@ bool share_a_vertex(const geometry::Triangle& a, const geometry::Triangle& b) {
 
 TEST(HandMeshes, DoNotIntersectThemselves) {
   for (const HandModel& hand : some_hands()) {
-    if (hand.shape.side == devices::HandSide::kLeft) continue;  // mirror images
+    if (hand.shape.side == hands::HandSide::kLeft) continue;  // mirror images
     for (const ChainLink& link : hand.chain.links()) {
       if (!link.mesh) continue;
       const auto count = static_cast<std::int32_t>(link.mesh->triangles.size());

@@ -30,10 +30,10 @@ constexpr double kDegrees = std::numbers::pi / 180.0;
 
 /// All values 0, except those named, in degrees.
 std::vector<double> values_of(const std::map<std::string, double>& degrees) {
-  std::vector<double> values(devices::kGloveJoints, 0.0);
+  std::vector<double> values(hands::kJoints, 0.0);
   for (const auto& [name, angle] : degrees) {
-    const auto* at = std::ranges::find(devices::kGloveJointNames, name);
-    values.at(static_cast<std::size_t>(at - devices::kGloveJointNames.begin())) = angle * kDegrees;
+    const auto* at = std::ranges::find(hands::kJointNames, name);
+    values.at(static_cast<std::size_t>(at - hands::kJointNames.begin())) = angle * kDegrees;
   }
   return values;
 }
@@ -48,7 +48,7 @@ std::size_t link_named(const HandModel& hand, const std::string& name) {
 class Placed {
  public:
   Placed(const HandModel& hand, const std::vector<double>& values) : hand_(hand), X_RL_(poses_of(hand.chain, values)) {}
-  explicit Placed(const HandModel& hand) : Placed(hand, std::vector<double>(devices::kGloveJoints, 0.0)) {}
+  explicit Placed(const HandModel& hand) : Placed(hand, std::vector<double>(hands::kJoints, 0.0)) {}
 
   const Isometry3d& X_RL(const std::string& link) const { return X_RL_[link_named(hand_, link)]; }
   Vector3d origin(const std::string& link) const { return X_RL(link).translation(); }
@@ -73,9 +73,9 @@ const std::array<std::string, 4> kFingers{"index", "middle", "ring", "little"};
 
 TEST(HandModel, HasTheValuesOfAGlove) {
   const HandModel hand = make_hand();
-  ASSERT_EQ(hand.chain.values().size(), devices::kGloveJointNames.size());
-  for (std::size_t i = 0; i < devices::kGloveJointNames.size(); ++i) {
-    EXPECT_EQ(hand.chain.values()[i].name, devices::kGloveJointNames[i]);
+  ASSERT_EQ(hand.chain.values().size(), hands::kJointNames.size());
+  for (std::size_t i = 0; i < hands::kJointNames.size(); ++i) {
+    EXPECT_EQ(hand.chain.values()[i].name, hands::kJointNames[i]);
     EXPECT_LE(hand.chain.values()[i].lower, 0.0) << "the flat hand is within the limits";
     EXPECT_GT(hand.chain.values()[i].upper, 0.0);
   }
@@ -271,7 +271,7 @@ TEST(HandModel, OpposesTheThumbToEveryFinger) {
 TEST(HandModel, IsTheMirrorImageOnTheOtherSide) {
   RandomNumbers random(kHandSeed);
   const HandModel right = make_hand();
-  const HandModel left = make_hand({.side = devices::HandSide::kLeft});
+  const HandModel left = make_hand({.side = hands::HandSide::kLeft});
   const auto mirror = [](const Vector3d& p) { return Vector3d(p.x(), -p.y(), p.z()); };
   for (int run = 0; run < 50; ++run) {
     const std::vector<double> values = test_support::random_values(random, right.chain);
@@ -326,7 +326,7 @@ TEST(HandModel, SaysWhatEachSegmentIs) {
 TEST(HandModel, RefusesShapesOfNoHand) {
   expect_bad_input([] { make_hand({.length_m = 1.83}); }, {"length_m", "1.83"});
   expect_bad_input([] { make_hand({.breadth_m = 0.84}); }, {"breadth_m", "0.84"});
-  expect_bad_input([] { make_hand({.side = devices::HandSide::kUnknown}); }, {"side"});
+  expect_bad_input([] { make_hand({.side = hands::HandSide::kUnknown}); }, {"side"});
 }
 
 }  // namespace

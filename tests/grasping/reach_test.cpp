@@ -53,10 +53,10 @@ constexpr std::array<Thing, 9> kThings{{{"ball", 0, true, 0, 0.033, 0.033},
 
 /// The angles of thumb (roll, MCP, IP, abduction) and of each finger (MCP, PIP, DIP) in degrees; all others are zero.
 std::vector<double> bent(const std::array<double, 4>& thumb, const std::array<double, 3>& finger) {
-  std::vector<double> values(devices::kGloveJointNames.size(), 0.0);
+  std::vector<double> values(hands::kJointNames.size(), 0.0);
   const auto set = [&](const std::string& joint, double degrees) {
-    const auto place = std::find(devices::kGloveJointNames.begin(), devices::kGloveJointNames.end(), joint);
-    values[static_cast<std::size_t>(place - devices::kGloveJointNames.begin())] = degrees * kDegree;
+    const auto place = std::find(hands::kJointNames.begin(), hands::kJointNames.end(), joint);
+    values[static_cast<std::size_t>(place - hands::kJointNames.begin())] = degrees * kDegree;
   };
   set("thumb_roll", thumb[0]);
   set("thumb_mcp", thumb[1]);

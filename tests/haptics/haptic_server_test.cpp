@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -12,11 +13,10 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <glissade/contact/sliding.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/haptic_server.h>
-#include <glissade/haptics/offline_run.h>
 
 #include "allocation_counter.h"
 
@@ -30,7 +30,8 @@ using Eigen::Vector3d;
 /// thread alone.
 class SteppedDevice final : public devices::GloveDevice {
  public:
-  explicit SteppedDevice(const geometry::PoseTrajectory& script) : glove_(script) {}
+  explicit SteppedDevice(const geometry::PoseTrajectory& script, const devices::SimulatedGloveParameters& wearer = {})
+      : glove_(script, wearer) {}
 
   const devices::DeviceDescriptor& descriptor() const noexcept override { return glove_.descriptor(); }
   bool read(devices::GloveState& newest) noexcept override {
@@ -62,13 +63,15 @@ class SteppedDevice final : public devices::GloveDevice {
 
 class Server : public ::testing::Test {
  protected:
+  static Isometry3d at_height(double z) { return Isometry3d(Eigen::Translation3d(0.0, 0.0, z)); }
+
   Server() {
-    const Isometry3d X_WH_end(Eigen::Translation3d(0.0, 0.0, 0.01));
+    const Isometry3d X_WH_end = at_height(0.01);
     using std::chrono::milliseconds;
     device_ = std::make_unique<SteppedDevice>(
         geometry::PoseTrajectory({{milliseconds(0), kStart}, {milliseconds(150), X_WH_end}}));
     const Coupling coupling = coupling_for(device_->descriptor(), {1000.0, 2.0});
-    sliding_ = std::make_unique<contact::MultiPartSliding>(
+    sliding_ = std::make_unique<grasping::GraspSimulation>(
         std::vector<contact::Obstacle>{{plate_}},
         std::vector<contact::HeldPart>{{.part_V = box_, .X_WV_start = kStart, .stiffness = coupling.stiffness}});
   }
@@ -78,14 +81,13 @@ class Server : public ::testing::Test {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 
-  static inline const Isometry3d kStart{Eigen::Translation3d(0.0, 0.0, 0.03)};
+  static inline const Isometry3d kStart = at_height(0.03);
   std::shared_ptr<const contact::ContactBody> plate_ = std::make_shared<contact::ContactBody>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
   std::shared_ptr<const contact::SlidingPart> box_ = std::make_shared<contact::SlidingPart>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.06, 0.04}, 12)));
   std::unique_ptr<SteppedDevice> device_;
-  std::unique_ptr<contact::MultiPartSliding> sliding_;
-  realtime::SteadyClock clock_;
+  std::unique_ptr<grasping::GraspSimulation> sliding_;
 };
 
 TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
@@ -93,13 +95,14 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
   std::vector<devices::HapticState> samples(kTicks);
   std::size_t count = 0;
   std::int64_t allocations = 0;
-  HapticServer server({{device_.get()}}, *sliding_, clock_,
-                      [&](const devices::HapticState& sample) {
-                        samples[count++] = sample;
-                        if (count == 1) allocations = test_support::allocations_of_this_thread();
-                        if (count == kTicks) allocations = test_support::allocations_of_this_thread() - allocations;
-                      },
-                      {.ticks = kTicks});
+  HapticServer server({{device_.get()}}, *sliding_, {.ticks = kTicks, .sink = [&](const devices::HapticState& sample) {
+                                                       samples[count++] = sample;
+                                                       if (count == 1)
+                                                         allocations = test_support::allocations_of_this_thread();
+                                                       if (count == kTicks)
+                                                         allocations =
+                                                             test_support::allocations_of_this_thread() - allocations;
+                                                     }});
   wait_for(server);
   server.stop();
 
@@ -121,19 +124,18 @@ TEST_F(Server, PressesThePartOnThePlateAndSendsTheForces) {
 void expect_faded(const SteppedDevice& device) {
   EXPECT_EQ(device.last_command().values().f_H_W, Vector3d::Zero());
   EXPECT_EQ(device.last_command().values().t_H_W, Vector3d::Zero());
-  EXPECT_EQ(device.last_command().values().joint_torques, devices::JointValues{});
+  EXPECT_EQ(device.last_command().values().joint_torques, hands::JointValues{});
   constexpr double kForceStep_N = 20.0 / 7.0;
   EXPECT_LE(device.greatest_step(), 2.0 * kForceStep_N * (1.0 + 1e-9)) << "two periods count at most";
 }
 
 TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
   std::atomic<bool> is_told{false};
-  HapticServer server({{device_.get()}}, *sliding_, clock_,
-                      [&](const devices::HapticState& sample) {
-                        if (sample.sequence == 400) device_->fall_silent();
-                        if (sample.sequence > 500 && sample.hands[0].reasons.is_state_old) is_told = true;
-                      },
-                      {.ticks = 600});
+  HapticServer server({{device_.get()}}, *sliding_,
+                      {.ticks = 600, .sink = [&](const devices::HapticState& sample) {
+                         if (sample.sequence == 400) device_->fall_silent();
+                         if (sample.sequence > 500 && sample.hands[0].reasons.is_state_old) is_told = true;
+                       }});
   wait_for(server);
   server.stop();
   EXPECT_TRUE(is_told);
@@ -141,53 +143,39 @@ TEST_F(Server, ADeviceThatFallsSilentGetsNoForce) {
 }
 
 TEST_F(Server, TheForceFadesAtTheEnd) {
-  HapticServer server({{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {}, {.ticks = 1000});
+  HapticServer server({{device_.get()}}, *sliding_, {.ticks = 1000});
   wait_for(server);
   expect_faded(*device_);
   EXPECT_EQ(server.ticks(), 1000);
 }
 
-/// Parts, and a hand whose first joint something stops, far before the angle of the glove.
-class StoppedFinger final : public LoopSimulation {
- public:
-  explicit StoppedFinger(contact::MultiPartSliding& parts) : parts_(parts) {}
-  const contact::MultiPartSliding& parts() const override { return parts_.parts(); }
-  void take_part(std::size_t part, const Isometry3d& X_WG) override { parts_.take_part(part, X_WG); }
-  void leave_part(std::size_t part) override { parts_.leave_part(part); }
-  void advance(const Ghosts& ghosts, double milliseconds) override { parts_.advance(ghosts, milliseconds); }
-  void tell_hands(ContactSet& set) const override {
-    HandAnswer& hand = set.hands[0];
-    hand.visible.activity = devices::HandActivity::kFree;
-    hand.visible.angles[0] = -0.6;
-    hand.row_count = 1;
-    hand.row_array[0].rates[0] = -0.03;
-  }
-
- private:
-  PartsInLoop parts_;
-};
-
+/// A hand that closes its fingers on the plate, 50 mm below it.
 TEST_F(Server, TheTorquesOfFingersFadeAtTheEndToo) {
-  StoppedFinger simulation(*sliding_);
-  FingerHand fingers;
-  fingers.limits.lower.fill(-1.0);
-  fingers.limits.upper.fill(1.0);
+  devices::SimulatedGloveParameters wearer;
+  wearer.open_posture.emplace().fill(0.0);
+  wearer.grasp_posture.fill(0.0);
+  for (const std::size_t flexion : {4U, 5U, 7U, 8U, 11U, 12U, 15U, 16U})  // hands::kJointNames
+    wearer.grasp_posture[flexion] = 1.2;
+  wearer.starts_closed = false;
+  wearer.grip_changes = {std::chrono::milliseconds(100)};
+  SteppedDevice glove(geometry::PoseTrajectory({{std::chrono::nanoseconds(0), at_height(0.05)}}), wearer);
+  grasping::GraspSimulation simulation({{plate_}}, {{.part_V = box_, .X_WV_start = at_height(0.3)}},
+                                       {std::make_shared<const grasping::HandModel>(grasping::make_hand())});
   double greatest_Nm = 0.0;
-  HapticServer server({{.device = device_.get(), .part = std::nullopt, .fingers = fingers}}, simulation, clock_,
-                      [&](const devices::HapticState& sample) {
-                        greatest_Nm = std::max(greatest_Nm, -sample.hands[0].joint_torques[0]);
-                      },
-                      {.ticks = 1000});
+  HapticServer server({{&glove}}, simulation, {.ticks = 1000, .sink = [&](const devices::HapticState& sample) {
+                                                 for (const double torque : sample.hands[0].joint_torques)
+                                                   greatest_Nm = std::max(greatest_Nm, std::abs(torque));
+                                               }});
   wait_for(server);
   EXPECT_GT(greatest_Nm, 0.4);
-  expect_faded(*device_);
+  expect_faded(glove);
 }
 
 TEST_F(Server, TheForceFadesWhenItIsStopped) {
   std::atomic<bool> pushes{false};
-  HapticServer server({{device_.get()}}, *sliding_, clock_, [&](const devices::HapticState& sample) {
-    if (sample.hands[0].force_W.norm() > 0.5) pushes = true;
-  });
+  HapticServer server({{device_.get()}}, *sliding_, {.sink = [&](const devices::HapticState& sample) {
+                        if (sample.hands[0].force_W.norm() > 0.5) pushes = true;
+                      }});
   while (!pushes)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   server.stop();
@@ -197,10 +185,10 @@ TEST_F(Server, TheForceFadesWhenItIsStopped) {
 TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
   std::atomic<bool> pushes{false};
   std::atomic<bool> is_told{false};
-  HapticServer server({{device_.get()}}, *sliding_, clock_, [&](const devices::HapticState& sample) {
-    if (sample.hands[0].force_W.norm() > 0.5) pushes = true;
-    if (sample.hands[0].reasons.is_stopped && sample.hands[0].force_W.isZero(0.0)) is_told = true;
-  });
+  HapticServer server({{device_.get()}}, *sliding_, {.sink = [&](const devices::HapticState& sample) {
+                        if (sample.hands[0].force_W.norm() > 0.5) pushes = true;
+                        if (sample.hands[0].reasons.is_stopped && sample.hands[0].force_W.isZero(0.0)) is_told = true;
+                      }});
   while (!pushes)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   server.emergency_stop();
@@ -211,11 +199,10 @@ TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
 }
 
 TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
-  HapticServer server({{device_.get()}}, *sliding_, clock_,
-                      [](const devices::HapticState& sample) {
-                        if (sample.hands[0].force_W.norm() > 0.5) throw std::runtime_error("the disk is full");
-                      },
-                      {.ticks = 2000});
+  HapticServer server({{device_.get()}}, *sliding_, {.ticks = 2000, .sink = [](const devices::HapticState& sample) {
+                                                       if (sample.hands[0].force_W.norm() > 0.5)
+                                                         throw std::runtime_error("the disk is full");
+                                                     }});
   wait_for(server);
   server.stop();
   EXPECT_TRUE(server.has_failed());
@@ -225,8 +212,8 @@ TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
 
 TEST_F(Server, LetsGoAndTakesHoldWhenItIsTold) {
   std::atomic<std::int32_t> part{-2};
-  HapticServer server({{device_.get()}}, *sliding_, clock_,
-                      [&](const devices::HapticState& sample) { part = sample.hands[0].part; });
+  HapticServer server({{device_.get()}}, *sliding_,
+                      {.sink = [&](const devices::HapticState& sample) { part = sample.hands[0].part; }});
   const auto wait_until_it_holds = [&](std::int32_t number) {
     while (part != number)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -257,7 +244,7 @@ class LateClock final : public realtime::Clock {
 
 TEST_F(Server, CountsLateTicksWhileItRuns) {
   LateClock clock;
-  HapticServer server({{device_.get()}}, *sliding_, clock, [](const devices::HapticState&) {});
+  HapticServer server({{device_.get()}}, *sliding_, {.clock = &clock});
   while (server.ticks() < 100)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_GE(server.late_ticks(), 4);
@@ -271,13 +258,11 @@ TEST_F(Server, CountsThePagesThatTheHapticThreadWaitsFor) {
   void* const memory =
       mmap(nullptr, kPages * page, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   ASSERT_NE(memory, MAP_FAILED);
-  HapticServer server({{device_.get()}}, *sliding_, clock_,
-                      [&](const devices::HapticState& sample) {
-                        if (sample.sequence != 10) return;
-                        for (std::size_t i = 0; i < kPages; ++i)
-                          static_cast<volatile char*>(memory)[i * page] = 1;
-                      },
-                      {.ticks = 20});
+  HapticServer server({{device_.get()}}, *sliding_, {.ticks = 20, .sink = [&](const devices::HapticState& sample) {
+                                                       if (sample.sequence != 10) return;
+                                                       for (std::size_t i = 0; i < kPages; ++i)
+                                                         static_cast<volatile char*>(memory)[i * page] = 1;
+                                                     }});
   wait_for(server);
   server.stop();
   EXPECT_GE(server.statistics().page_faults, static_cast<std::int64_t>(kPages) / 16) << "or pages of up to 64 KiB";
@@ -285,18 +270,22 @@ TEST_F(Server, CountsThePagesThatTheHapticThreadWaitsFor) {
 }
 
 TEST_F(Server, RefusesToSpinForMoreThanHalfOfThePeriod) {
-  const HapticServerOptions options{.spin = std::chrono::microseconds(501)};
-  EXPECT_THROW(HapticServer(
-                   {{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {}, options),
+  EXPECT_THROW(HapticServer({{device_.get()}}, *sliding_, {.spin = std::chrono::microseconds(501)}),
                std::invalid_argument);
 }
 
-TEST_F(Server, RefusesAnEmptySink) {
-  EXPECT_THROW(HapticServer({{device_.get()}}, *sliding_, clock_, {}), std::invalid_argument);
+TEST_F(Server, RunsForATimeOrUntilItIsDone) {
+  HapticServer(std::vector<HandOfServer>{{device_.get()}}, *sliding_, {.ticks = 20}).run_for();
+  expect_faded(*device_);
+  HapticServer server({{device_.get()}}, *sliding_);
+  server.run_for(std::chrono::milliseconds(50));
+  EXPECT_FALSE(server.is_done());
+  EXPECT_GT(server.ticks(), 0);
+  expect_faded(*device_);
 }
 
 TEST_F(Server, StopsWhenItIsToldTo) {
-  HapticServer server({{device_.get()}}, *sliding_, clock_, [](const devices::HapticState&) {});
+  HapticServer server({{device_.get()}}, *sliding_);
   while (server.ticks() < 10)
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   server.stop();

@@ -4,10 +4,10 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/sliding.h>
 #include <glissade/contact/spring.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
 namespace glissade::haptics {
@@ -37,10 +37,10 @@ std::shared_ptr<const contact::SlidingPart> box() {
 }
 
 /// The hand moves down by 10 mm more than kDepth for half a second, and holds there for one.
-std::vector<HapticState> press_down(contact::MultiPartSliding& sliding, std::size_t part = 0,
+std::vector<HapticState> press_down(grasping::GraspSimulation& sliding, std::size_t part = 0,
                                     std::chrono::nanoseconds period = kTickPeriod) {
   using std::chrono::milliseconds;
-  const Isometry3d X_WH_start = sliding.result(part).X_WV;
+  const Isometry3d X_WH_start = sliding.parts().result(part).X_WV;
   const Isometry3d X_WH_end = at_height(X_WH_start.translation().z() - 0.01 - kDepth);
   devices::SimulatedGlove glove(geometry::PoseTrajectory(
       {{milliseconds(0), X_WH_start}, {milliseconds(500), X_WH_end}, {milliseconds(1500), X_WH_end}}));
@@ -51,13 +51,13 @@ std::vector<HapticState> press_down(contact::MultiPartSliding& sliding, std::siz
   return samples;
 }
 
-contact::MultiPartSliding box_above_the_plate() {
+grasping::GraspSimulation box_above_the_plate() {
   return {{{plate()}}, {{.part_V = box(), .X_WV_start = at_height(0.03), .stiffness = kHandStiffness}}};
 }
 
 /// A box is pressed on a plate.
 std::vector<HapticState> press_on_plate() {
-  contact::MultiPartSliding sliding = box_above_the_plate();
+  grasping::GraspSimulation sliding = box_above_the_plate();
   return press_down(sliding);
 }
 
@@ -81,20 +81,20 @@ TEST(OfflineRun, AHandPressedAgainstAPlateComesToRestWhereTheSpringsBalance) {
 
 TEST(OfflineRun, LeadsOneOfSeveralPartsOntoAnother) {
   const auto part = box();
-  contact::MultiPartSliding parts({{plate()}},
+  grasping::GraspSimulation parts({{plate()}},
                                   {{.part_V = part, .X_WV_start = at_height(0.021), .stiffness = kHandStiffness},
                                    {.part_V = part, .X_WV_start = at_height(0.071), .stiffness = kHandStiffness}});
   const std::vector<HapticState> samples = press_down(parts, 1);
   EXPECT_NEAR(samples.back().hands[0].force_W.z(), force_at_rest(), 0.01 * force_at_rest());
   EXPECT_NEAR(samples.back().parts[1].X_WV.translation().z(), 0.061, 20e-6);
-  EXPECT_EQ(parts.result(0).X_WV.translation().z(), 0.021) << "nothing holds it";
+  EXPECT_EQ(parts.parts().result(0).X_WV.translation().z(), 0.021) << "nothing holds it";
 }
 
 TEST(OfflineRun, PressesThePartOnThePlateByEveryMetaphorWithoutAJump) {
   for (const contact::Metaphor metaphor :
        {contact::Metaphor::kForceFeedback, contact::Metaphor::kRubberBand, contact::Metaphor::kRubberBandSpring}) {
     SCOPED_TRACE(name_of(metaphor));
-    contact::MultiPartSliding sliding(
+    grasping::GraspSimulation sliding(
         {{plate()}},
         {{.part_V = box(), .X_WV_start = at_height(0.03), .metaphor = metaphor, .stiffness = kHandStiffness}});
     const std::vector<HapticState> samples = press_down(sliding);
@@ -123,14 +123,14 @@ TEST(OfflineRun, TheForceNeverJumps) {
 TEST(OfflineRun, TheForceDoesNotDependOnTheRate) {
   const std::vector<HapticState> usual = press_on_plate();
   for (const int microseconds : {200, 2000}) {
-    contact::MultiPartSliding sliding = box_above_the_plate();
+    grasping::GraspSimulation sliding = box_above_the_plate();
     const std::vector<HapticState> samples = press_down(sliding, 0, std::chrono::microseconds(microseconds));
     for (std::size_t ms = 2; ms < usual.size(); ms += 2) {
       const std::size_t i = ms * 1000 / static_cast<std::size_t>(microseconds) - 1;
       EXPECT_NEAR(samples[i].hands[0].force_W.z(), usual[ms - 1].hands[0].force_W.z(), 0.1) << ms << " ms";
     }
   }
-  contact::MultiPartSliding sliding = box_above_the_plate();
+  grasping::GraspSimulation sliding = box_above_the_plate();
   EXPECT_THROW(press_down(sliding, 0, std::chrono::microseconds(100)), std::invalid_argument);
 }
 

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/contact/multi_part_sliding.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
 #include "held_part.h"
@@ -20,7 +20,7 @@ TEST(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) 
   const auto above = [] { return test_support::pose({0.0, 0.0, 0.2}); };
   devices::SimulatedGlove glove(geometry::PoseTrajectory({{std::chrono::nanoseconds(0), above()}}));
   const contact::PartScript script{geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})};
-  contact::MultiPartSliding sliding({}, {{.part_V = part, .X_WV_start = above()}, {.part_V = part, .script = script}});
+  grasping::GraspSimulation sliding({}, {{.part_V = part, .X_WV_start = above()}, {.part_V = part, .script = script}});
   const auto ignore = [](const devices::HapticState&) {};
   EXPECT_THROW(run_offline({{&glove}}, sliding, 1, {}), std::invalid_argument);
   EXPECT_THROW(run_offline({{nullptr}}, sliding, 1, ignore), std::invalid_argument);

@@ -35,7 +35,7 @@ devices::SimulatedGlove proof_hand(std::size_t part, std::chrono::seconds durati
                                      : to_and_fro({0.03, 0.0, 0.0}, {0.04, -0.02, 0.0}, milliseconds(500), duration));
 }
 
-contact::MultiPartSliding proof_parts() {
+grasping::GraspSimulation proof_parts() {
   using std::chrono::milliseconds;
   constexpr std::chrono::seconds kForLong(600);
   const contact::CouplingStiffness stiffness{1000.0, 1.0};
@@ -45,7 +45,8 @@ contact::MultiPartSliding proof_parts() {
   const geometry::PoseTrajectory lift = to_and_fro({0.0, 0.0, -0.08}, {0.0, 0.0, 0.04}, milliseconds(1000), kForLong);
   return {{wall(0.07)},
           {held(-0.03), held(0.03), contact::held_by_script({cube(kEdge_m), lift})},
-          contact::real_time_rules()};
+          {},
+          {.sliding = contact::real_time_rules()}};
 }
 
 }  // namespace glissade::test_support

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <functional>
 
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/realtime/clock.h>
 
 namespace glissade::test_support {
@@ -17,7 +17,7 @@ namespace glissade::test_support {
 devices::SimulatedGlove proof_hand(std::size_t part, std::chrono::seconds duration);
 
 /// Two cubes for the hands, and one that moves on its own, at a wall.
-contact::MultiPartSliding proof_parts();
+grasping::GraspSimulation proof_parts();
 
 /// A device without a link: a simulated glove that takes a step whenever it is read. It tells when a tick has given its
 /// command.

@@ -149,15 +149,17 @@ haptics::HapticServerStatistics run_server(Witness& witness, const std::shared_p
                                            std::int64_t ticks) {
   constexpr std::chrono::seconds kLonger(600);
   realtime::SteadyClock clock;
-  contact::MultiPartSliding parts = proof_parts();
+  grasping::GraspSimulation parts = proof_parts();
   devices::SimulatedGloveService remote(bus, proof_hand(0, kLonger), clock);
   devices::LcmGlove link(bus, devices::simulated_glove_descriptor());
   ProofGlove device(proof_hand(1, kLonger), kPeriod, [&witness] { witness.note_command(); });
   haptics::FlightRecorder flight({});
   haptics::BackgroundObserver recorders({&flight});
-  haptics::HapticServer server({{&link, 0}, {&device, 1}}, parts, clock,
-                               [&witness](const devices::HapticState& sample) { witness.see(sample); },
-                               {.period = kPeriod, .ticks = ticks, .observer = &recorders});
+  haptics::HapticServer server({{&link, 0}, {&device, 1}}, parts,
+                               {.period = kPeriod,
+                                .ticks = ticks,
+                                .sink = [&witness](const devices::HapticState& sample) { witness.see(sample); },
+                                .observer = &recorders});
   for (int i = 0; !server.is_done() && !server.has_failed(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     if (i % 20 == 10) server.release(1);

@@ -125,9 +125,9 @@ TEST(ViewFrame, HasThePosesOfAHandsLinks) {
   scene.hands = {{.model = std::make_shared<const grasping::HandModel>(grasping::make_hand())}};
   FrameMaker maker(scene);
   devices::HapticState state = some_state();
-  state.hands[0].visible.activity = devices::HandActivity::kHolding;
-  state.hands[0].visible.grasp = devices::GraspKind::kPower;
-  state.hands[0].visible.form = devices::GraspForm::kGravity;
+  state.hands[0].visible.activity = hands::HandActivity::kHolding;
+  state.hands[0].visible.grasp = hands::GraspType::kPower;
+  state.hands[0].visible.form = hands::GraspForm::kGravity;
   state.hands[0].visible.touching = (1 << 23) + 1;
   state.hands[0].visible.X_WH = Eigen::Translation3d(1000.0, 0.0, 0.125);
   maker.add(state);
@@ -145,7 +145,7 @@ TEST(ViewFrame, HasThePosesOfAHandsLinks) {
 TEST(ViewFrame, TellsWhatAHandLacksThatOnlyPushes) {
   FrameMaker maker(scene_far_away());
   devices::HapticState state = some_state();
-  state.hands[0].visible.grasp = devices::GraspKind::kPush;
+  state.hands[0].visible.grasp = hands::GraspType::kPush;
   state.hands[0].visible.touching = 1 << (4 * 2 + 3);  // the outer segment of the index
   maker.add(state);
   EXPECT_EQ(read_frame(maker.make()).numbers[kHead + kPart + 17],
@@ -153,7 +153,7 @@ TEST(ViewFrame, TellsWhatAHandLacksThatOnlyPushes) {
 }
 
 TEST(ViewFrame, AHandThatWaitsOrIsLostWithNothingIsNotShown) {
-  using Activity = devices::HandActivity;
+  using Activity = hands::HandActivity;
   EXPECT_FALSE(is_present(Activity::kNone));
   EXPECT_FALSE(is_present(Activity::kWaiting)) << "where it is has not been told: it would stand at the origin";
   EXPECT_FALSE(is_present(Activity::kLost));

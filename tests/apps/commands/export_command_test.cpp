@@ -211,9 +211,9 @@ TEST_F(ExportOfARecording, HandsHaveTheirFingers) {
 
   const grasping::HandModel model = grasping::make_hand();
   const test_support::CsvRow& row = row_after(0.4, rows);
-  devices::JointValues angles{};
+  hands::JointValues angles{};
   for (std::size_t j = 0; j < angles.size(); ++j)
-    angles[j] = parse_number(row.at(std::string(devices::kGloveJointNames[j]) + "_rad")).value();
+    angles[j] = parse_number(row.at(std::string(hands::kJointNames[j]) + "_rad")).value();
   std::vector<Eigen::Isometry3d> X_WL(model.chain.links().size());
   model.chain.poses(pose_in(row, ""), angles, X_WL);
 

@@ -108,7 +108,7 @@ TEST_F(WrongUnits, GraspWarnsOfDegreesAndOfAHandFarAway) {
   const std::string header = all.substr(0, all.find('\n') + 1);
   const auto warning = [&](const std::string& x, const std::string& angle) {
     std::string row = "," + x + ",0,0.5,1,0,0,0";
-    for (int joint = 0; joint < devices::kGloveJoints; ++joint)
+    for (int joint = 0; joint < hands::kJoints; ++joint)
       row += "," + angle;
     const std::string hand = folder.write("fingers.csv", header + "0" + row + "\n0.01" + row + "\n");
     return glissade({"grasp", scene, "--hand-trajectory", hand}).standard_error;

@@ -37,7 +37,7 @@ TEST(SceneFile, EqualMeshesAreShared) {
                                         "  - {name: e, mesh: part.obj}\n"
                                         "  - {name: f, mesh: part.obj, scale: 0.5}\n");
   const Scene scene = read_scene(path);
-  const auto mesh = [&](const char* name) { return scene.find(name).mesh; };
+  const auto mesh = [&](const char* name) { return scene.find(name).mesh.shared(); };
   EXPECT_EQ(mesh("a"), mesh("b"));
   EXPECT_NE(mesh("a"), mesh("c"));
   EXPECT_EQ(mesh("d"), mesh("e"));
@@ -123,11 +123,11 @@ TEST(SceneFile, CountsTrianglesWithoutArea) {
   const TemporaryFolder folder;
   folder.write("part.obj", std::string(kTetrahedronObj) + "f 1 2 2\nv 2 0 0\nf 1 2 5\n");
   const std::string path = folder.write("scene.yaml", "objects:\n  - {name: part, mesh: part.obj}\n");
-  EXPECT_EQ(read_scene(path).objects.front().degenerate_triangles, 2);
+  EXPECT_EQ(read_scene(path).objects.front().mesh.degenerate_triangles(), 2);
 }
 
 TEST(SceneFile, AnUnknownObjectListsTheKnownOnes) {
-  expect_bad_input([] { (void)parse_object("  - {name: ball, shape: {type: sphere}}\n").find("motor"); },
+  expect_bad_input([] { find_object(parse_object("  - {name: ball, shape: {type: sphere}}\n"), "motor"); },
                    {"scene.yaml:", "'motor'", "block, ball"});
 }
 

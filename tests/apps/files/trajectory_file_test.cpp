@@ -102,7 +102,7 @@ HandScript parse_hand(const std::string& rows) {
 /// A row at rest at the origin, with the first and the last joint at these angles.
 std::string hand_row(const std::string& time, const std::string& first, const std::string& last) {
   std::string row = time + ",0,0,0,1,0,0,0," + first;
-  for (int joint = 1; joint + 1 < devices::kGloveJoints; ++joint)
+  for (int joint = 1; joint + 1 < hands::kJoints; ++joint)
     row += ",0";
   return row + "," + last + "\n";
 }

@@ -17,10 +17,10 @@
 
 namespace glissade::test_support {
 
-using devices::JointValues;
-using devices::kGloveJoints;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using hands::JointValues;
+using hands::kJoints;
 
 namespace {
 
@@ -47,7 +47,7 @@ std::string script_text(const std::vector<HandPause>& pauses, const ThumbShape& 
   std::ostringstream text;
   text.precision(12);
   text << "t_s,x_m,y_m,z_m,qw,qx,qy,qz";
-  for (const std::string_view name : devices::kGloveJointNames)
+  for (const std::string_view name : hands::kJointNames)
     text << ',' << name << "_rad";
   for (const HandPause& pause : pauses) {
     const Eigen::Quaterniond q(pause.X_WH.linear());
@@ -114,8 +114,8 @@ bool VisibleBodies::collide(const devices::HapticState& state) {
                      [&](const devices::HapticHandState& hand) { return collides(hand.visible, X_WV); });
 }
 
-bool VisibleBodies::collides(const devices::VisibleHand& hand, const Isometry3d& X_WV) {
-  if (hand.activity != devices::HandActivity::kFree && hand.activity != devices::HandActivity::kHolding) return false;
+bool VisibleBodies::collides(const hands::VisibleHand& hand, const Isometry3d& X_WV) {
+  if (hand.activity != hands::HandActivity::kFree && hand.activity != hands::HandActivity::kHolding) return false;
   model_.chain.poses(hand.X_WH, hand.angles, X_WL_);
   for (std::size_t link = 0; link < X_WL_.size(); ++link) {
     const auto& mesh = model_.chain.links()[link].mesh;
@@ -141,7 +141,7 @@ double expect_nothing_that_jumps(const std::vector<RecordedTick>& ticks) {
       EXPECT_LE((now.force_W - before.force_W).norm(), device.max_force / kRise_s * dt) << i;
       EXPECT_LE(now.force_W.norm(), device.max_force * (1.0 + 1e-9)) << i;
       greatest_N = std::max(greatest_N, now.force_W.norm());
-      for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+      for (std::size_t joint = 0; joint < kJoints; ++joint) {
         const double torque = now.joint_torques[joint];
         EXPECT_LE(std::abs(torque - before.joint_torques[joint]), device.max_joint_torque / kJointRise_s * dt) << i;
         EXPECT_LE(std::abs(torque), device.max_joint_torque) << i;

@@ -65,7 +65,7 @@ class VisibleBodies {
 
   /// Whether any two of them collide that must not.
   bool collide(const devices::HapticState& state);
-  bool collides(const devices::VisibleHand& hand, const Eigen::Isometry3d& X_WV);
+  bool collides(const hands::VisibleHand& hand, const Eigen::Isometry3d& X_WV);
 
  private:
   std::shared_ptr<const geometry::TriangleMesh> part_;

@@ -27,9 +27,9 @@
 namespace glissade::apps {
 namespace {
 
-using devices::JointValues;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using hands::JointValues;
 using test_support::at;
 using test_support::HandPause;
 using test_support::HeldByHands;

@@ -30,10 +30,10 @@
 namespace glissade::apps {
 namespace {
 
-using devices::JointValues;
-using devices::kGloveJoints;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using hands::JointValues;
+using hands::kJoints;
 using test_support::at;
 using test_support::HandPause;
 using test_support::ProgramResult;
@@ -155,7 +155,7 @@ TEST_F(TwoHands, ShowNothingThatPenetrates) {
 double beyond_the_stop(const RecordedTick& tick) {
   const devices::HapticHandState& hand = tick.state.hands[0];
   double greatest = 0.0;
-  for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
     if (hand.joint_torques[joint] != 0.0)
       greatest = std::max(greatest, std::abs(tick.gloves[0].joint_angles[joint] - hand.visible.angles[joint]));
   }
@@ -207,8 +207,8 @@ TEST(OneHand, StopsItsFingersAtTheSurface) {
   EXPECT_LE(beyond_the_stop(at_rest), kDegree);
   VisibleBodies bodies = visible_bodies();
   int stopped = 0;
-  for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
-    devices::VisibleHand deeper = hand.visible;
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
+    hands::VisibleHand deeper = hand.visible;
     deeper.angles[joint] -= std::copysign(kDegree, hand.joint_torques[joint]);
     if (hand.joint_torques[joint] != 0.0 && bodies.collides(deeper, at_rest.state.parts[0].X_WV)) ++stopped;
   }

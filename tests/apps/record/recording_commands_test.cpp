@@ -209,7 +209,7 @@ TEST_F(RecordingCommands, TheTableOfHandsNamesFormAndSegmentsOfAGrasp) {
   const std::string log = folder_.path("grasp.lcmlog");
   devices::HapticState state;
   state.hand_count = 2;
-  state.hands[0].visible.form = devices::GraspForm::kTipPinch;
+  state.hands[0].visible.form = hands::GraspForm::kTipPinch;
   // The outer segments of thumb and index: 2^(4 f + 3), where f is 1 and 2.
   state.hands[0].visible.touching = (1 << 7) + (1 << 11);
   state.hands[1].visible.touching = 1 + (1 << 22);  // the palm, and the middle segment of the little finger

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/run/force_reason.h>
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
 namespace glissade::apps {
@@ -116,13 +116,14 @@ TEST(ForceReason, NothingIsToldAtTheStartOfARun) {
   const auto plate = std::make_shared<const contact::ContactBody>(
       std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.5, 0.5}, 200)));
   const Eigen::Isometry3d X_WV(Eigen::Translation3d(0.0, 0.0, 0.03));
-  contact::MultiPartSliding sliding({{plate}}, {{.part_V = box, .X_WV_start = X_WV}});
+  grasping::GraspSimulation simulation({{plate}}, {{.part_V = box, .X_WV_start = X_WV}});
   devices::SimulatedGlove holds(geometry::PoseTrajectory({{milliseconds(0), X_WV}}));
   devices::SimulatedGlove is_empty(geometry::PoseTrajectory({{milliseconds(0), X_WV}}));
-  haptics::run_offline({{&holds, 0}, {&is_empty, std::nullopt}}, sliding, 100, [](const devices::HapticState& state) {
-    for (const std::size_t hand : {0U, 1U})
-      EXPECT_EQ(to_text(force_reason(state, hand)), "") << "hand " << hand << ", tick " << state.sequence;
-  });
+  haptics::run_offline(
+      {{&holds, 0}, {&is_empty, std::nullopt}}, simulation, 100, [](const devices::HapticState& state) {
+        for (const std::size_t hand : {0U, 1U})
+          EXPECT_EQ(to_text(force_reason(state, hand)), "") << "hand " << hand << ", tick " << state.sequence;
+      });
 }
 
 }  // namespace

@@ -48,8 +48,7 @@ TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
                                     "scene", "."),
                         {"part"});
   const auto stiffness_with = [&](double wanted) {
-    const StartedSimulation started = start_simulation(scene, {glove}, {.stiffness_N_per_m = wanted}, {});
-    return started.simulation->parts().stiffness(0);
+    return start_simulation(scene, {glove}, {.stiffness_N_per_m = wanted}, {}).parts().stiffness(0);
   };
   EXPECT_DOUBLE_EQ(stiffness_with(50.0).translational, 50.0);
   EXPECT_DOUBLE_EQ(stiffness_with(2.0 * largest).translational, largest);
@@ -69,10 +68,10 @@ TEST(SessionStart, APartThatAnyHandMayTakeIsAsSoftAsTheWeakestDevice) {
                   "  - {name: wall, shape: {type: box}, pose: {position_m: [6, 0, 0]}}\n",
                   "scene", "."),
       {"first", "second"});
-  const StartedSimulation started =
+  const grasping::GraspSimulation simulation =
       start_simulation(scene, {{device_with_damping(2.0), 0}, {device_with_damping(0.3)}}, {}, {});
   for (std::size_t part = 0; part < 2; ++part)
-    EXPECT_DOUBLE_EQ(started.simulation->parts().stiffness(part).translational, 600.0) << part;
+    EXPECT_DOUBLE_EQ(simulation.parts().stiffness(part).translational, 600.0) << part;
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
 }
 
 /// What the hand does in each of 100 ticks, and the part that it holds.
-Session session_of_hand(const std::function<std::pair<devices::HandActivity, int>(int tick)>& at) {
+Session session_of_hand(const std::function<std::pair<hands::HandActivity, int>(int tick)>& at) {
   Session session = session_of(0);
   const auto samples = std::make_shared<SessionRecorder>(100, 1, 1);
   for (int i = 0; i < 100; ++i) {
@@ -144,7 +144,7 @@ Session session_of_hand(const std::function<std::pair<devices::HandActivity, int
 }
 
 TEST(MissedGoal, IsExplainedByWhatTheHandDid) {
-  using devices::HandActivity;
+  using hands::HandActivity;
   HapticScene scene;
   scene.X_WGoal = Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0));
   const auto why = [&](const Session& session) {
@@ -171,7 +171,7 @@ TEST(SessionCheck, ThatEndsEarlyHasLookedAtTicksOfTheWholeRun) {
   HapticScene scene;
   scene.placed_obstacles = {{box, Eigen::Isometry3d(Eigen::Translation3d(0.09, 0.0, 0.0))}};
   scene.parts = {{.name = "box", .part_V = std::make_shared<const contact::SlidingPart>(box)}};
-  const Session session = session_of_hand([](int) { return std::pair(devices::HandActivity::kNone, -1); });
+  const Session session = session_of_hand([](int) { return std::pair(hands::HandActivity::kNone, -1); });
   const SessionCheck whole(*session.samples, scene, {nullptr});
   EXPECT_EQ(whole.checked_ticks(), 100);
   EXPECT_EQ(whole.colliding_ticks_of_part(0), 20) << "from 80 mm on";

@@ -57,7 +57,7 @@ TEST(ViewedParts, ArePerhapsThoseOfHandsThatChooseWhereTheyLead) {
   devices::HapticState state = state_of_peg_and_ball();
   state.parts[0].p_Vref.x() = 0.03;
   state.hand_count = 1;
-  state.hands[0].visible.activity = devices::HandActivity::kHolding;
+  state.hands[0].visible.activity = hands::HandActivity::kHolding;
   EXPECT_EQ(peg_and_ball().doubt(state), "");
 }
 

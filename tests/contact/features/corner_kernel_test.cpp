@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/geometry/triangle_features.h>
+#include <glissade/geometry/triangle_pair.h>
 
 #include "every_instruction_set.h"
 #include "random_numbers.h"

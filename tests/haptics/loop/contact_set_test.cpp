@@ -84,10 +84,10 @@ Isometry3d rolling_ghost(int call) {
 
 TEST(ContactSet, HasTheTimeOfTheGhostsThatItAnswers) {
   const Isometry3d X_WV_start = pose({0.0, 0.0, 0.021}, turn(1.0, Vector3d::UnitX()));
-  contact::MultiPartSliding sliding(
+  grasping::GraspSimulation sliding(
       {test_support::obstacle_of(geometry::make_box({0.1, 0.1, 0.05}, 6000), pose({0.0, 0.0, -0.025}))},
-      {{.part_V = test_support::part_of(geometry::make_sphere(0.02, 2000)), .X_WV_start = X_WV_start}},
-      {.work_budget = 10'000});
+      {{.part_V = test_support::part_of(geometry::make_sphere(0.02, 2000)), .X_WV_start = X_WV_start}}, {},
+      {.sliding = {.work_budget = 10'000}});
   Answerer answerer(sliding);
   int old = 0;
   std::chrono::nanoseconds last{0};
@@ -100,7 +100,7 @@ TEST(ContactSet, HasTheTimeOfTheGhostsThatItAnswers) {
     ContactSet set;
     answerer.answer(ghosts, kTickPeriod, set);
     EXPECT_GE(set.time, last) << call;
-    const bool is_complete = !sliding.result(0).ended_early;
+    const bool is_complete = !sliding.parts().result(0).ended_early;
     EXPECT_TRUE(!is_complete || set.time == ghosts.time) << call;
     old += set.time < ghosts.time ? 1 : 0;
     last = set.time;

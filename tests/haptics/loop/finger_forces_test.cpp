@@ -23,7 +23,7 @@
 namespace glissade::haptics {
 namespace {
 
-using devices::JointValues;
+using hands::JointValues;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using test_support::expect_bad_input;

@@ -18,9 +18,9 @@
 namespace glissade::haptics {
 namespace {
 
-using devices::JointValues;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using hands::JointValues;
 
 constexpr std::size_t kWristJoint = 20;
 
@@ -220,7 +220,7 @@ TEST(FingerHand, IsGivenNoPart) {
 
 TEST(FingerHand, NeedsAWristOfJointsThatTheGloveHas) {
   FingerHand fingers = hand_with_wrist();
-  fingers.wrist[0].angle = devices::kGloveJoints;
+  fingers.wrist[0].angle = hands::kJoints;
   const KernelHand hand{.device = devices::simulated_glove_descriptor(), .fingers = fingers};
   test_support::expect_bad_input([&] { HapticKernel({{Vector3d::Zero(), 0.05, {1000.0, 2.0}}}, {hand}); }, {"wrist"});
 }

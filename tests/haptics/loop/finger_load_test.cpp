@@ -20,8 +20,8 @@
 namespace glissade::haptics {
 namespace {
 
-using devices::JointValues;
 using Eigen::Vector3d;
+using hands::JointValues;
 
 constexpr std::int32_t kHeld = 2;
 constexpr double kPartRadius_m = 0.03;

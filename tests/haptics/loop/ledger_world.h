@@ -226,7 +226,7 @@ class LedgerWorld {
     floor_ += 1e-3 * floor_speed_;
     const Time now = std::chrono::milliseconds(ms_);
     if (ms_ >= halted_until_) answer(now);
-    std::array<const devices::GloveState*, kMaxHands> states{};
+    std::array<const devices::GloveState*, hands::kMaxHands> states{};
     for (std::size_t h = 0; h < hands_.size(); ++h)
       states[h] = hands_[h]->seen ? &*hands_[h]->seen : nullptr;
     const HapticTick tick = kernel_->tick({states.data(), hands_.size()}, set_, now);

@@ -14,10 +14,10 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/realtime/periodic_loop.h>
 
@@ -123,12 +123,12 @@ class RubbedBox {
   devices::SafetyEnvelope envelope_{glove_.descriptor(), 6.0};  // at the glove's end
   devices::GloveCommand command_;                               // the newest that came
   devices::SafeCommand given_;
-  contact::MultiPartSliding sliding_{
+  grasping::GraspSimulation sliding_{
       {test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 2))},
       {{.part_V = test_support::cube(kEdge), .X_WV_start = test_support::at(0.0, 0.0, 0.5 * kEdge + 1e-3)}}};
   Answerer answerer_{sliding_};
   ContactSet set_ = answerer_.at_start();
-  HapticKernel kernel_{kernel_parts(sliding_), {{glove_.descriptor(), 0}}};
+  HapticKernel kernel_{kernel_parts(sliding_.parts()), {{glove_.descriptor(), 0}}};
   realtime::PeriodicSchedule schedule_{kTickPeriod, kTickPeriod};
   realtime::PeriodicStatistics statistics_;
   Time busy_until_{0};

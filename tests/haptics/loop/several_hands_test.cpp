@@ -13,9 +13,9 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/spring.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/haptic_kernel.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/reference/brute_force.h>
@@ -53,7 +53,7 @@ class SeveralHands : public ::testing::Test {
  protected:
   using Events = std::function<void(std::int64_t tick, HoldRequests& hands)>;
 
-  std::vector<HapticState> run(const std::vector<HandOffline>& hands, contact::MultiPartSliding& sliding,
+  std::vector<HapticState> run(const std::vector<HandOffline>& hands, grasping::GraspSimulation& sliding,
                                std::int64_t ticks, const Events& events = {},
                                const std::vector<contact::Obstacle>& obstacles = {}) {
     std::vector<HapticState> states;
@@ -68,16 +68,17 @@ class SeveralHands : public ::testing::Test {
   }
 
  private:
-  static void expect_apart(const HapticState& state, const contact::MultiPartSliding& sliding,
+  static void expect_apart(const HapticState& state, const grasping::GraspSimulation& sliding,
                            const std::vector<contact::Obstacle>& obstacles) {
     for (std::size_t a = 0; a < sliding.part_count(); ++a) {
       for (const contact::Obstacle& obstacle : obstacles) {
-        ASSERT_FALSE(reference::brute_force_intersects(obstacle.body->tree.mesh(), sliding.part(a).tree.mesh(),
+        ASSERT_FALSE(reference::brute_force_intersects(obstacle.body->tree.mesh(), sliding.parts().part(a).tree.mesh(),
                                                        obstacle.X_WO.inverse() * state.parts[a].X_WV))
             << obstacle.name << ", tick " << state.sequence;
       }
       for (std::size_t b = 0; b < a; ++b) {
-        ASSERT_FALSE(reference::brute_force_intersects(sliding.part(a).tree.mesh(), sliding.part(b).tree.mesh(),
+        ASSERT_FALSE(reference::brute_force_intersects(sliding.parts().part(a).tree.mesh(),
+                                                       sliding.parts().part(b).tree.mesh(),
                                                        state.parts[a].X_WV.inverse() * state.parts[b].X_WV))
             << "tick " << state.sequence;
       }
@@ -95,7 +96,7 @@ class SeveralHands : public ::testing::Test {
 
 /// Springs in a row: both arms, and both couplings.
 TEST_F(SeveralHands, TwoPartsPressedTogetherPushBothHandsAlike) {
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.01, 0.0, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.01, 0.0, 0.0});
   const HapticState last = run({{&left, 0}, {&right, 1}}, sliding, 1500).back();
@@ -109,7 +110,7 @@ TEST_F(SeveralHands, TwoPartsPressedTogetherPushBothHandsAlike) {
 }
 
 TEST_F(SeveralHands, HandsThatLeadPartsApartFeelNothing) {
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.05, 0.02, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.05, 0.0, 0.03});
   for (const HapticState& state : run({{&left, 0}, {&right, 1}}, sliding, 600)) {
@@ -119,7 +120,7 @@ TEST_F(SeveralHands, HandsThatLeadPartsApartFeelNothing) {
 }
 
 TEST_F(SeveralHands, APartThatNobodyHoldsIsAnObstacle) {
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(-0.03), cube_at(0.03)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {0.0, 0.0, 0.0});
   const HapticState last = run({{&left, 0}}, sliding, 1500).back();
   EXPECT_EQ(last.parts[1].X_WV.translation().x(), 0.03);
@@ -132,7 +133,7 @@ TEST_F(SeveralHands, APartThatNobodyHoldsIsAnObstacle) {
 TEST_F(SeveralHands, APartThatMovesOnItsOwnPushesTheHand) {
   const geometry::PoseTrajectory script(
       {{milliseconds(0), at(0.03, 0.0, 0.0)}, {milliseconds(1000), at(-0.03, 0.0, 0.0)}});
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.03), contact::held_by_script({cube(kEdge), script})});
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(-0.03), contact::held_by_script({cube(kEdge), script})});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.03, 0.0, 0.0});
   const HapticState last = run({{&left, 0}}, sliding, 2000).back();
   EXPECT_NEAR(last.parts[1].X_WV.translation().x(), -0.03, 50e-6);
@@ -143,7 +144,7 @@ TEST_F(SeveralHands, APartThatMovesOnItsOwnPushesTheHand) {
 
 /// Both hands hold one cube and pull it apart by 20 mm: the springs of arms and couplings are in a row.
 TEST_F(SeveralHands, TwoHandsOnOnePartFeelEachOther) {
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(0.0)});
   devices::SimulatedGlove left = hand({-0.03, 0.0, 0.0}, {-0.04, 0.0, 0.0});
   devices::SimulatedGlove right = hand({0.03, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const HapticState last = run({{&left, 0}, {&right, 0}}, sliding, 1500).back();
@@ -154,7 +155,7 @@ TEST_F(SeveralHands, TwoHandsOnOnePartFeelEachOther) {
 }
 
 TEST_F(SeveralHands, TwoHandsThatPressOnePartShareTheForceOfItsContacts) {
-  contact::MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
+  grasping::GraspSimulation sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove first = hand({-0.03, 0.0, 0.0}, {-0.01, 0.0, 0.0});
   devices::SimulatedGlove second = hand({-0.05, 0.0, 0.0}, {-0.03, 0.0, 0.0});
   const HapticState last = run({{&first, 0}, {&second, 0}}, sliding, 1500).back();
@@ -165,7 +166,7 @@ TEST_F(SeveralHands, TwoHandsThatPressOnePartShareTheForceOfItsContacts) {
 }
 
 TEST_F(SeveralHands, APartPassesFromHandToHand) {
-  contact::MultiPartSliding sliding({wall(0.2)}, {cube_at(0.0)});
+  grasping::GraspSimulation sliding({wall(0.2)}, {cube_at(0.0)});
   devices::SimulatedGlove giver = hand({-0.03, 0.0, 0.0}, {0.07, 0.0, 0.0});
   devices::SimulatedGlove taker = hand({0.13, 0.0, 0.0}, {0.13, 0.0, 0.0});
   const auto states = run({{&giver, 0}, {&taker, std::nullopt}}, sliding, 1500, [](std::int64_t tick, auto& hands) {
@@ -181,7 +182,7 @@ TEST_F(SeveralHands, APartPassesFromHandToHand) {
 }
 
 TEST_F(SeveralHands, APartThatIsLetGoUnderForceStaysWhereItIsAndTheForceGoes) {
-  contact::MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
+  grasping::GraspSimulation sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove glove = hand({0.0, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const auto states = run({{&glove, 0}}, sliding, 1400, [](std::int64_t tick, auto& hands) {
     if (tick == 1000) hands.release(0);
@@ -196,7 +197,7 @@ TEST_F(SeveralHands, APartThatIsLetGoUnderForceStaysWhereItIsAndTheForceGoes) {
 }
 
 TEST_F(SeveralHands, AReleaseAndAGraspInOneTickAreBothKept) {
-  contact::MultiPartSliding sliding({wall(0.03)}, {cube_at(0.0)});
+  grasping::GraspSimulation sliding({wall(0.03)}, {cube_at(0.0)});
   devices::SimulatedGlove glove = hand({0.0, 0.0, 0.0}, {0.04, 0.0, 0.0});
   const auto states = run({{&glove, 0}}, sliding, 1020, [](std::int64_t tick, auto& hands) {
     if (tick != 1000) return;
@@ -210,7 +211,7 @@ TEST_F(SeveralHands, AReleaseAndAGraspInOneTickAreBothKept) {
 }
 
 TEST_F(SeveralHands, AHandThatClosesTakesTheNearestPartAndOneThatOpensLetsGo) {
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(-0.06), cube_at(0.06)});
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(-0.06), cube_at(0.06)});
   devices::SimulatedGloveParameters parameters;
   parameters.starts_closed = false;
   parameters.grip_changes = {milliseconds(100), milliseconds(400), milliseconds(600)};
@@ -228,8 +229,8 @@ TEST_F(SeveralHands, AHandThatClosesTakesTheNearestPartAndOneThatOpensLetsGo) {
 
 /// A hand whose tracker fails no longer moves a part that another hand holds too.
 TEST_F(SeveralHands, AHandThatIsLostLeavesThePartToTheOther) {
-  contact::MultiPartSliding sliding({wall(1.0)}, {cube_at(0.0)});
-  HapticKernel kernel(kernel_parts(sliding),
+  grasping::GraspSimulation sliding({wall(1.0)}, {cube_at(0.0)});
+  HapticKernel kernel(kernel_parts(sliding.parts()),
                       {{devices::simulated_glove_descriptor(), 0}, {devices::simulated_glove_descriptor(), 0}});
   ContactSet set;
   set.parts[0].hold = 1;
@@ -285,8 +286,8 @@ class TwoHandsOnOnePart : public ::testing::Test {
     return kernel_.tick(states, set_, milliseconds(ms_));
   }
 
-  contact::MultiPartSliding sliding_{{wall(1.0)}, {cube_at(0.0), cube_at(0.5)}};
-  HapticKernel kernel_{kernel_parts(sliding_),
+  grasping::GraspSimulation sliding_{{wall(1.0)}, {cube_at(0.0), cube_at(0.5)}};
+  HapticKernel kernel_{kernel_parts(sliding_.parts()),
                        {{devices::simulated_glove_descriptor(), 0}, {devices::simulated_glove_descriptor(), 0}}};
   ContactSet set_;
   devices::GloveState first_;
@@ -381,13 +382,13 @@ TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
                                        {milliseconds(6000), at(0.0, 0.0, -0.12)}});
   const std::vector<contact::Obstacle> obstacles{
       wall(0.09), test_support::obstacle_of(geometry::make_box({0.02, 0.3, 0.02}, 12), at(-0.1, 0.0, 0.0))};
-  contact::MultiPartSliding sliding(
+  grasping::GraspSimulation sliding(
       obstacles,
       {cube_at(-0.03),
        cube_at(0.03),
        {.part_V = cube(kEdge), .X_WV_start = at(0.0, 0.07, 0.0), .metaphor = contact::Metaphor::kIncremental},
        contact::held_by_script({cube(kEdge), lift})},
-      {.friction = {.at_rest = 0.2, .sliding = 0.2}});
+      {}, {.sliding = {.friction = {.at_rest = 0.2, .sliding = 0.2}}});
   devices::SimulatedGlove first = wandering_hand(2 * kSeed, std::chrono::seconds(seconds));
   devices::SimulatedGlove second = wandering_hand(2 * kSeed + 1, std::chrono::seconds(seconds));
   std::mt19937_64 random(kSeed);

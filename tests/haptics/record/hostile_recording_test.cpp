@@ -17,7 +17,7 @@ namespace {
 AnswerRecord plain_answer() {
   AnswerRecord record;
   record.set.sequence = 1;
-  record.set.hands[0].visible.activity = devices::HandActivity::kFree;
+  record.set.hands[0].visible.activity = hands::HandActivity::kFree;
   return record;
 }
 

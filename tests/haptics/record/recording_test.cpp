@@ -15,14 +15,13 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/spring.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/haptics/offline_run.h>
 #include <glissade/haptics/recording.h>
-#include <glissade/realtime/clock.h>
 
 #include "held_part.h"
 #include "poses.h"
@@ -42,10 +41,11 @@ devices::SimulatedGlove recorded_hand() {
       geometry::PoseTrajectory({{milliseconds(0), at(0.0, 0.0, 0.0)}, {milliseconds(300), at(0.04, 0.01, 0.0)}}));
 }
 
-contact::MultiPartSliding recorded_parts(const contact::SlidingRules& rules = {}) {
+grasping::GraspSimulation recorded_parts(const contact::SlidingRules& rules = {}) {
   return {{test_support::wall(0.03)},
           {{.part_V = test_support::cube(0.04), .stiffness = contact::CouplingStiffness{1000.0, 1.0}}},
-          rules};
+          {},
+          {.sliding = rules}};
 }
 
 RecordingHead recorded_head() {
@@ -56,7 +56,7 @@ RecordingHead recorded_head() {
 /// A hand presses a cube on a wall, lets go and takes hold again.
 void record(LoopObserver& observer) {
   devices::SimulatedGlove glove = recorded_hand();
-  contact::MultiPartSliding parts = recorded_parts();
+  grasping::GraspSimulation parts = recorded_parts();
   run_offline({{.device = &glove}}, parts, kRecordedTicks, [](const devices::HapticState&) {},
               {.before_tick =
                    [](std::int64_t tick, HoldRequests& hands) {
@@ -92,7 +92,7 @@ class Recording : public testing::Test {
   /// What is found, reading and repeating: nothing if all is as it was.
   std::string fault(const std::string& path, const contact::SlidingRules& rules = {}) {
     devices::EventLogReader log(path);
-    contact::MultiPartSliding parts = recorded_parts(rules);
+    grasping::GraspSimulation parts = recorded_parts(rules);
     Replay replay(parts, {{.device = recorded_hand().descriptor(), .part = 0}}, kTickPeriod, recorded_head());
     while (const auto event = log.next()) {
       if (!replay.take(*event)) break;
@@ -141,10 +141,8 @@ TEST_F(Recording, OfAServerIsRepeatedToTheBit) {
   {
     BackgroundObserver observer({&recorder});
     RecordedDevice device;
-    contact::MultiPartSliding parts = recorded_parts(rules);
-    realtime::SteadyClock clock;
-    HapticServer server({{&device}}, parts, clock, [](const devices::HapticState&) {},
-                        {.ticks = kRecordedTicks, .observer = &observer});
+    grasping::GraspSimulation parts = recorded_parts(rules);
+    HapticServer server({{&device}}, parts, {.ticks = kRecordedTicks, .observer = &observer});
     while (server.ticks() < kRecordedTicks / 2)
       std::this_thread::sleep_for(milliseconds(1));
     EXPECT_TRUE(server.release(0));
@@ -268,39 +266,6 @@ TEST_F(Recording, WithTwoChangesTellsTheFirst) {
   writer.close();
   EXPECT_EQ(fault(path), "the event on HAPTIC_STATE after tick 300 differs");
   EXPECT_EQ(ticks_, 300);
-}
-
-/// Parts that come to an end.
-class FailingParts final : public LoopSimulation {
- public:
-  explicit FailingParts(int calls) : calls_(calls) {}
-
-  const contact::MultiPartSliding& parts() const override { return parts_; }
-  void take_part(std::size_t part, const Eigen::Isometry3d& X_WG) override { in_loop_.take_part(part, X_WG); }
-  void leave_part(std::size_t part) override { in_loop_.leave_part(part); }
-  void advance(const Ghosts& ghosts, double milliseconds) override {
-    if (--calls_ < 0) throw std::runtime_error("no more");
-    in_loop_.advance(ghosts, milliseconds);
-  }
-  void tell_hands(ContactSet&) const override {}
-
- private:
-  contact::MultiPartSliding parts_ = recorded_parts();
-  PartsInLoop in_loop_{parts_};
-  int calls_;
-};
-
-TEST_F(Recording, PassesFailuresOfTheSimulationOn) {
-  FailingParts parts(200);
-  Replay replay(parts, {{.device = recorded_hand().descriptor(), .part = 0}}, kTickPeriod, recorded_head());
-  devices::EventLogReader log(path_);
-  const auto repeat = [&] {
-    while (auto event = log.next())
-      replay.take(std::move(*event));
-    replay.finish();
-  };
-  EXPECT_THROW(repeat(), std::runtime_error);
-  EXPECT_EQ(replay.answers(), 200);
 }
 
 TEST_F(Recording, OfTheLastSecondsHasABound) {

@@ -1,4 +1,5 @@
-// Links the private dependencies of the components contact and collision: TBB and Highway (trees), Qhull (hulls).
+// Links the private dependencies of the components contact and collision: TBB and Highway (trees), Qhull (hulls); and
+// those of grasping: urdfdom.
 
 #include <fstream>
 #include <iostream>
@@ -6,6 +7,7 @@
 
 #include <glissade/contact/sliding.h>
 #include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
 
 int main() {
   using namespace glissade;
@@ -20,6 +22,9 @@ int main() {
     sliding.advance(at_height(-0.001));
   const double height = sliding.result().X_WV.translation().z();
   const bool right = height > 0.0 && height <= 1.001 * sliding.margin();
+  grasping::GraspSimulation simulation({{plate}}, {{.part_V = tetrahedron, .X_WV_start = at_height(0.001)}},
+                                       {std::make_shared<const grasping::HandModel>(grasping::make_hand())});
+  if (simulation.parts().part_count() != 1) return 1;
   std::cout << (right ? "Contact alone works.\n" : "The part does not lie on the plate.\n");
   return right ? 0 : 1;
 }

@@ -20,15 +20,19 @@
 #include "clasped_hand.h"
 #include "poses.h"
 
-namespace glissade::grasping {
+namespace glissade::haptics {
 namespace {
 
-using devices::HandActivity;
 using devices::HapticState;
-using devices::JointValues;
-using devices::kGloveJoints;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using grasping::ClaspRules;
+using grasping::GraspSimulation;
+using grasping::HandModel;
+using grasping::LinkContact;
+using hands::HandActivity;
+using hands::JointValues;
+using hands::kJoints;
 using std::chrono::milliseconds;
 using test_support::at;
 using test_support::hand_chain;
@@ -58,7 +62,7 @@ struct BallAndWall {
     if (wall_only.collides(*ball, state.parts[0].X_WV)) return true;
     std::vector<Isometry3d> X_WL(hand_chain()->links().size());
     for (std::size_t h = 0; h < static_cast<std::size_t>(state.hand_count); ++h) {
-      const devices::VisibleHand& hand = state.hands[h].visible;
+      const hands::VisibleHand& hand = state.hands[h].visible;
       if (hand.activity == HandActivity::kWaiting || hand.activity == HandActivity::kNone) continue;
       hand_chain()->poses(hand.X_WH, hand.angles, X_WL);
       for (std::size_t link = 0; link < X_WL.size(); ++link) {
@@ -110,13 +114,13 @@ devices::SimulatedGlove carrier() {
 }
 
 std::vector<HapticState> run(GraspSimulation& simulation, std::vector<devices::SimulatedGlove>& gloves, int ticks,
-                             haptics::LoopObserver* observer = nullptr) {
-  std::vector<haptics::HandOffline> hands;
+                             LoopObserver* observer = nullptr) {
+  std::vector<HandOffline> hands;
   for (devices::SimulatedGlove& glove : gloves)
-    hands.push_back({.device = &glove, .part = std::nullopt, .fingers = finger_hand(*hand_model())});
+    hands.push_back({.device = &glove});
   std::vector<HapticState> states;
-  haptics::run_offline(hands, simulation, ticks, [&](const HapticState& state) { states.push_back(state); },
-                       {.observer = observer});
+  run_offline(hands, simulation, ticks, [&](const HapticState& state) { states.push_back(state); },
+              {.observer = observer});
   return states;
 }
 
@@ -143,7 +147,7 @@ TEST(FingerLoop, TakesHoldByTouchCarriesAndLetsGo) {
   EXPECT_EQ(hand_at(190).visible.activity, HandActivity::kFree);
   EXPECT_EQ(hand_at(190).part, -1);
   EXPECT_EQ(hand_at(650).visible.activity, HandActivity::kHolding);
-  EXPECT_EQ(hand_at(650).visible.grasp, devices::GraspKind::kPrecision);
+  EXPECT_EQ(hand_at(650).visible.grasp, hands::GraspType::kPrecision);
   EXPECT_EQ(hand_at(650).part, 0);
   EXPECT_GT(ball_at(1550).x(), ball_at(650).x() + 0.1);
   EXPECT_EQ(hand_at(2500).visible.activity, HandActivity::kFree);
@@ -152,13 +156,13 @@ TEST(FingerLoop, TakesHoldByTouchCarriesAndLetsGo) {
 }
 
 /// Looks at the point at which the coupling of the ball acts.
-class GripWatch final : public haptics::LoopObserver {
+class GripWatch final : public LoopObserver {
  public:
   explicit GripWatch(const GraspSimulation& simulation) : simulation_(simulation) {}
 
-  void after_tick(const haptics::TickRecord& /*record*/) noexcept override {}
-  void after_answer(const haptics::AnswerRecord& record) noexcept override {
-    const haptics::PartAnswer& ball = record.set.parts[0];
+  void after_tick(const TickRecord& /*record*/) noexcept override {}
+  void after_answer(const AnswerRecord& record) noexcept override {
+    const PartAnswer& ball = record.set.parts[0];
     const bool takes_hold = record.ghosts.parts[0].is_held && ball.hold != last_hold_;
     last_hold_ = ball.hold;
     if (!takes_hold) return;
@@ -219,7 +223,7 @@ TEST(FingerLoop, ChangesNoForceAndNoTorqueFasterThanTheDeviceAllows) {
     const Vector3d change = hand_at(ms).force_W - hand_at(ms - 1).force_W;
     ASSERT_LE(change.norm(), device.max_force / kForcePeriods * (1.0 + 1e-9)) << ms;
     ASSERT_LE(hand_at(ms).force_W.norm(), device.max_force * (1.0 + 1e-9)) << ms;
-    for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
       const double torque = hand_at(ms).joint_torques[joint];
       ASSERT_LE(std::abs(torque - hand_at(ms - 1).joint_torques[joint]),
                 device.max_joint_torque / kJointPeriods * (1.0 + 1e-9))
@@ -260,24 +264,22 @@ TEST(FingerLoop, PassesThePartFromHandToHand) {
 }
 
 /// The recording of a hand that carries, and what repeats it.
-haptics::RecordingHead recording_head() {
+RecordingHead recording_head() {
   return {.gloves = {{.device = 1, .session = 1, .descriptor = devices::simulated_glove_descriptor()}}, .events = {}};
 }
 
 std::vector<devices::LogEvent> recorded_carry(const BallAndWall& scene, int ticks) {
-  class Events final : public haptics::LoopObserver {
+  class Events final : public LoopObserver {
    public:
-    void after_tick(const haptics::TickRecord& record) noexcept override {
+    void after_tick(const TickRecord& record) noexcept override {
       for (devices::LogEvent& event : events_.of(record))
         all.push_back(std::move(event));
     }
-    void after_answer(const haptics::AnswerRecord& record) noexcept override {
-      all.push_back(haptics::RecordedEvents::of(record));
-    }
+    void after_answer(const AnswerRecord& record) noexcept override { all.push_back(RecordedEvents::of(record)); }
     std::vector<devices::LogEvent> all;
 
    private:
-    haptics::RecordedEvents events_{recording_head()};
+    RecordedEvents events_{recording_head()};
   };
   Events events;
   GraspSimulation simulation = scene.simulation(1);
@@ -290,9 +292,7 @@ TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
   const BallAndWall scene;
   const std::vector<devices::LogEvent> events = recorded_carry(scene, 2500);
   GraspSimulation simulation = scene.simulation(1);
-  haptics::Replay replay(simulation,
-                         {{.device = devices::simulated_glove_descriptor(), .fingers = finger_hand(*hand_model())}},
-                         haptics::kTickPeriod, recording_head());
+  Replay replay(simulation, {{.device = devices::simulated_glove_descriptor()}}, kTickPeriod, recording_head());
   for (const devices::LogEvent& event : events)
     ASSERT_TRUE(replay.take(event)) << replay.difference();
   EXPECT_TRUE(replay.finish()) << replay.difference();
@@ -321,7 +321,7 @@ TEST(FingerLoop, StopsFingersWithinADegreeOfTheVisibleOnes) {
   const HapticState& earlier = carry()[600];
   const BallAndWall scene;
   int stopped = 0;
-  for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const double torque = state.hands[0].joint_torques[joint];
     const double moved = state.hands[0].visible.angles[joint] - earlier.hands[0].visible.angles[joint];
     if (torque == 0.0 || std::abs(moved) > 0.01) continue;  // the thumb still slides round the ball
@@ -347,4 +347,4 @@ TEST(FingerLoop, HoldsNothingThatItsGripAsksFor) {
 }
 
 }  // namespace
-}  // namespace glissade::grasping
+}  // namespace glissade::haptics

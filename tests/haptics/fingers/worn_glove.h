@@ -11,7 +11,7 @@
 #include <glissade/haptics/finger_forces.h>
 
 #include "clasped_hand.h"
-#include "life/finger_rows.h"
+#include "loop/finger_rows.h"
 
 namespace glissade::test_support {
 
@@ -34,7 +34,7 @@ class WornGlove {
   double stiffness() const { return forces_.stiffness(); }
   /// The command of the last step, and what `FingerForces` wanted.
   const devices::SafeCommand& command() const { return command_; }
-  const devices::JointValues& wanted() const { return wanted_; }
+  const hands::JointValues& wanted() const { return wanted_; }
   /// J: what the fingers have put into the glove so far, against its torques and the friction of its joints.
   double energy() const { return energy_; }
 
@@ -43,9 +43,9 @@ class WornGlove {
   haptics::FingerForces forces_;
   devices::SafetyEnvelope envelope_;
   devices::SafeCommand command_;
-  devices::JointValues wanted_{};
+  hands::JointValues wanted_{};
   haptics::HandAnswer answer_;
-  grasping::FingerRows rows_;
+  haptics::FingerRows rows_;
   double energy_ = 0.0;
   int lost_for_ = 0;
   int silent_for_ = 0;  // ms without a target

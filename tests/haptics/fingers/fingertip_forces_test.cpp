@@ -2,13 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/commands/fingertip_forces.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/finger_forces.h>
 
-namespace glissade::apps {
+namespace glissade::haptics {
 namespace {
-
-using haptics::FingerRow;
 
 constexpr std::size_t kIndexFinger = 1;
 constexpr std::size_t kIndexPip = 5;
@@ -16,13 +14,14 @@ constexpr std::size_t kIndexDip = 6;
 
 /// A hand stopped at angles of zero by these contacts, whose wearer closes the last two joints of the index finger.
 std::array<double, kFingers> forces_with(const std::vector<FingerRow>& rows, double pip_rad, double dip_rad) {
-  haptics::HandAnswer hand;
+  HandAnswer hand;
   for (const FingerRow& row : rows)
     hand.row_array[static_cast<std::size_t>(hand.row_count++)] = row;
-  devices::JointValues targets{};
+  hands::JointValues targets{};
   targets[kIndexPip] = pip_rad;
   targets[kIndexDip] = dip_rad;
-  return FingertipForces(grasping::make_hand()).update(targets, hand);
+  return FingertipForces(finger_hand(grasping::make_hand()).limits, devices::simulated_glove_descriptor())
+      .update(targets, hand);
 }
 
 /// A contact that closes by so many metres a radian.
@@ -34,8 +33,7 @@ FingerRow row_with(double by_pip, double by_dip) {
 }
 
 double stiffness() {
-  return haptics::finger_stiffness(devices::simulated_glove_descriptor(), haptics::kTickPeriod,
-                                   std::chrono::nanoseconds(0));
+  return finger_stiffness(devices::simulated_glove_descriptor(), kTickPeriod, std::chrono::nanoseconds(0));
 }
 
 TEST(FingertipForces, AreTheTorqueOfTheJointByItsArm) {
@@ -69,4 +67,4 @@ TEST(FingertipForces, LeaveToAnotherSegmentWhatItBears) {
 }
 
 }  // namespace
-}  // namespace glissade::apps
+}  // namespace glissade::haptics

@@ -1,6 +1,6 @@
 /// Which contacts of a hand the haptic thread gets to know, where there are more than it can hold.
 
-#include "life/finger_rows.h"
+#include "loop/finger_rows.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,10 +17,12 @@
 #include "poses.h"
 #include "sanitizers.h"
 
-namespace glissade::grasping {
+namespace glissade::haptics {
 namespace {
 
-using devices::JointValues;
+using grasping::LinkContact;
+using grasping::Posture;
+using hands::JointValues;
 using test_support::at;
 using test_support::bent_hand;
 using test_support::ClaspedHand;
@@ -53,11 +55,11 @@ class PressedPalm : public testing::Test {
   }
 
   JointValues torques(std::span<const LinkContact> contacts) {
-    haptics::HandAnswer answer;
+    HandAnswer answer;
     FingerRows().tell(hand_.clasp, contacts, 0, answer);
     JointValues angles{};
     std::copy(target_.values.begin(), target_.values.end(), angles.begin());
-    haptics::FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
+    FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
     return forces.update(angles, answer);
   }
 
@@ -68,7 +70,7 @@ class PressedPalm : public testing::Test {
 
 TEST_F(PressedPalm, TakesNoTorqueFromTheFingers) {
   const std::vector<LinkContact>& contacts = hand_.clasp.contacts();
-  ASSERT_GT(contacts.size(), haptics::kMaxFingerRows);
+  ASSERT_GT(contacts.size(), kMaxFingerRows);
   // Each contact alone: a joint is pushed back by the strongest.
   JointValues expected{};
   for (const LinkContact& contact : contacts) {
@@ -86,14 +88,14 @@ TEST_F(PressedPalm, TakesNoTorqueFromTheFingers) {
 }
 
 TEST_F(PressedPalm, LeavesEachSegmentAContact) {
-  haptics::HandAnswer answer;
+  HandAnswer answer;
   FingerRows().tell(hand_.clasp, hand_.clasp.contacts(), 0, answer);
-  EXPECT_EQ(answer.rows().size(), haptics::kMaxFingerRows);
+  EXPECT_EQ(answer.rows().size(), kMaxFingerRows);
   std::set<std::size_t> touching;
   std::set<std::size_t> told;
   for (const LinkContact& contact : hand_.clasp.contacts()) {
     touching.insert(contact.link);
-    for (const haptics::FingerRow& row : answer.rows())
+    for (const FingerRow& row : answer.rows())
       if (row.p_W == contact.contact.p_W && row.n_W == contact.contact.n_W) told.insert(contact.link);
   }
   EXPECT_EQ(told, touching);
@@ -101,4 +103,4 @@ TEST_F(PressedPalm, LeavesEachSegmentAContact) {
 }
 
 }  // namespace
-}  // namespace glissade::grasping
+}  // namespace glissade::haptics

@@ -1,19 +1,18 @@
-#include "life/finger_rows.h"
+#include "loop/finger_rows.h"
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <numeric>
 
-#include <glissade/devices/glove_device.h>
 #include <glissade/haptics/finger_forces.h>
 
-namespace glissade::grasping {
+namespace glissade::haptics {
 namespace {
 
-haptics::FingerRow row_of(const KinematicChain& chain, const LinkContact& touch,
-                          std::span<const Eigen::Isometry3d> X_WL, std::int32_t first_part) {
-  haptics::FingerRow row;
+FingerRow row_of(const grasping::KinematicChain& chain, const grasping::LinkContact& touch,
+                 std::span<const Eigen::Isometry3d> X_WL, std::int32_t first_part) {
+  FingerRow row;
   row.part = std::max(-1, touch.contact.obstacle - first_part);
   row.n_W = touch.contact.n_W;
   row.p_W = touch.contact.p_W;
@@ -24,16 +23,25 @@ haptics::FingerRow row_of(const KinematicChain& chain, const LinkContact& touch,
 
 }  // namespace
 
-void FingerRows::tell(const Clasp& clasp, std::span<const LinkContact> contacts, std::int32_t first_part,
-                      haptics::HandAnswer& answer) {
-  const KinematicChain& chain = clasp.chain();
-  const Posture& visible = clasp.posture();
+void FingerRows::tell(const grasping::GraspSimulation& simulation, std::size_t hand, HandAnswer& answer) {
+  const grasping::HoldDecision& decision = simulation.decision(hand);
+  answer.visible = simulation.visible(hand);
+  answer.part = decision.part ? static_cast<std::int32_t>(*decision.part) : -1;
+  answer.decision = decision.number;
+  tell(simulation.clasp(hand), simulation.contacts(hand),
+       static_cast<std::int32_t>(simulation.parts().obstacle_count()), answer);
+}
+
+void FingerRows::tell(const grasping::Clasp& clasp, std::span<const grasping::LinkContact> contacts,
+                      std::int32_t first_part, HandAnswer& answer) {
+  const grasping::KinematicChain& chain = clasp.chain();
+  const grasping::Posture& visible = clasp.posture();
   answer.visible.X_WH = visible.X_WR;
   std::copy(visible.values.begin(), visible.values.end(), answer.visible.angles.begin());
   X_WL_.resize(chain.links().size());
   chain.poses(visible.X_WR, visible.values, X_WL_);
   rows_.clear();
-  for (const LinkContact& touch : contacts)
+  for (const grasping::LinkContact& touch : contacts)
     rows_.push_back(row_of(chain, touch, X_WL_, first_part));
   choose(clasp, contacts);
   answer.row_count = static_cast<std::int32_t>(chosen_.size());
@@ -41,34 +49,34 @@ void FingerRows::tell(const Clasp& clasp, std::span<const LinkContact> contacts,
     answer.row_array[i] = rows_[chosen_[i]];
 }
 
-void FingerRows::choose(const Clasp& clasp, std::span<const LinkContact> contacts) {
+void FingerRows::choose(const grasping::Clasp& clasp, std::span<const grasping::LinkContact> contacts) {
   by_depth_.resize(contacts.size());
   std::iota(by_depth_.begin(), by_depth_.end(), std::size_t{0});
   std::stable_sort(by_depth_.begin(), by_depth_.end(),
                    [&](std::size_t a, std::size_t b) { return contacts[a].depth > contacts[b].depth; });
   priorities_.assign(contacts.size(), Priority::kOther);
-  if (contacts.size() > haptics::kMaxFingerRows) {
+  if (contacts.size() > kMaxFingerRows) {
     choose_strongest(clasp);
     choose_of_each_segment(contacts);
   }
   chosen_.clear();
   for (const Priority priority : {Priority::kStrongest, Priority::kOfSegment, Priority::kOther}) {
     for (const std::size_t i : by_depth_) {
-      if (priorities_[i] == priority && chosen_.size() < haptics::kMaxFingerRows) chosen_.push_back(i);
+      if (priorities_[i] == priority && chosen_.size() < kMaxFingerRows) chosen_.push_back(i);
     }
   }
 }
 
 /// For each joint the contact that pushes it back the farthest.
-void FingerRows::choose_strongest(const Clasp& clasp) {
-  devices::JointValues lags{};
+void FingerRows::choose_strongest(const grasping::Clasp& clasp) {
+  hands::JointValues lags{};
   for (std::size_t v = 0; v < clasp.posture().values.size(); ++v)
     lags[v] = clasp.target().values[v] - clasp.posture().values[v];
-  devices::JointValues deepest{};
-  std::array<std::size_t, devices::kGloveJoints> strongest{};
+  hands::JointValues deepest{};
+  std::array<std::size_t, hands::kJoints> strongest{};
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    devices::JointValues depths = deepest;
-    haptics::deepen(rows_[i], lags, depths);
+    hands::JointValues depths = deepest;
+    deepen(rows_[i], lags, depths);
     for (std::size_t v = 0; v < depths.size(); ++v) {
       if (depths[v] > deepest[v]) strongest[v] = i;
     }
@@ -80,7 +88,7 @@ void FingerRows::choose_strongest(const Clasp& clasp) {
 }
 
 /// The deepest contact of each segment with each object that has none yet.
-void FingerRows::choose_of_each_segment(std::span<const LinkContact> contacts) {
+void FingerRows::choose_of_each_segment(std::span<const grasping::LinkContact> contacts) {
   const auto is_same = [&](std::size_t a, std::size_t b) {
     return contacts[a].link == contacts[b].link && contacts[a].contact.obstacle == contacts[b].contact.obstacle;
   };
@@ -92,4 +100,4 @@ void FingerRows::choose_of_each_segment(std::span<const LinkContact> contacts) {
   }
 }
 
-}  // namespace glissade::grasping
+}  // namespace glissade::haptics

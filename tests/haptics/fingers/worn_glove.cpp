@@ -4,17 +4,15 @@
 #include <limits>
 #include <utility>
 
-#include <glissade/grasping/grasp_simulation.h>
-
 namespace glissade::test_support {
 namespace {
 
-using devices::kGloveJoints;
+using hands::kJoints;
 
 devices::SimulatedGloveParameters wearer(const grasping::Posture& fist,
                                          std::vector<std::chrono::nanoseconds> grip_changes) {
   devices::SimulatedGloveParameters parameters;
-  std::copy_n(fist.values.begin(), kGloveJoints, parameters.grasp_posture.begin());
+  std::copy_n(fist.values.begin(), kJoints, parameters.grasp_posture.begin());
   parameters.open_posture.emplace().fill(0.0);
   parameters.starts_closed = false;
   parameters.grip_changes = std::move(grip_changes);
@@ -35,7 +33,7 @@ WornGlove::WornGlove(const geometry::TriangleMesh& object, const Eigen::Isometry
                      std::vector<std::chrono::nanoseconds> grip_changes)
     : hand(object, X_WB),
       glove_(std::move(script_X_WR), wearer(fist, std::move(grip_changes))),
-      forces_(grasping::finger_hand(grasping::make_hand()).limits, glove_.descriptor()),
+      forces_(haptics::finger_hand(grasping::make_hand()).limits, glove_.descriptor()),
       envelope_(glove_.descriptor()) {}
 
 void WornGlove::run(int milliseconds) {
@@ -45,9 +43,9 @@ void WornGlove::run(int milliseconds) {
 
 void WornGlove::step() {
   constexpr int kPatience_ms = 20;  // without a target, before the clasp is told
-  const devices::JointValues before = glove_.state().joint_angles;
+  const hands::JointValues before = glove_.state().joint_angles;
   glove_.step(std::chrono::milliseconds(1), command_);
-  for (std::size_t i = 0; i < kGloveJoints; ++i) {
+  for (std::size_t i = 0; i < kJoints; ++i) {
     const double moved = glove_.state().joint_angles[i] - before[i];
     const double friction = descriptor().joint_damping * moved / 1e-3;
     energy_ += (friction - command_.values().joint_torques[i]) * moved;

@@ -14,11 +14,12 @@
 #include "poses.h"
 #include "worn_glove.h"
 
-namespace glissade::grasping {
+namespace glissade::haptics {
 namespace {
 
-using devices::JointValues;
-using devices::kGloveJoints;
+using grasping::Posture;
+using hands::JointValues;
+using hands::kJoints;
 using std::chrono::milliseconds;
 using test_support::at;
 using test_support::bent_hand;
@@ -57,7 +58,7 @@ TEST(FeltFingers, StopWithinADegreeOfTheSurface) {
   const JointValues& torques = glove.command().values().joint_torques;
   const JointValues angles = glove.state().joint_angles;
   int stopped = 0;
-  for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+  for (std::size_t joint = 0; joint < kJoints; ++joint) {
     const double will = bent_hand(0.9).values[joint] - angles[joint];
     if (torques[joint] == 0.0) {
       EXPECT_NEAR(will, 0.0, 0.01 * kOneDegree)
@@ -79,7 +80,7 @@ TEST(FeltFingers, AreAtRestAndFeelASteadyTorque) {
   const JointValues torques = glove.command().values().joint_torques;
   for (int i = 0; i < 500; ++i) {
     glove.step();
-    for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
       ASSERT_NEAR(glove.state().joint_angles[joint], angles[joint], 0.01 * kOneDegree) << "after " << i << " ms";
       ASSERT_NEAR(glove.command().values().joint_torques[joint], torques[joint], 1e-3) << "after " << i << " ms";
     }
@@ -121,7 +122,7 @@ TEST(FeltFingers, FeelTorquesThatChangeNoFasterThanTheDeviceAllows) {
   for (int i = 0; i < 3500; ++i) {
     glove.step();
     const JointValues& torques = glove.command().values().joint_torques;
-    for (std::size_t joint = 0; joint < kGloveJoints; ++joint) {
+    for (std::size_t joint = 0; joint < kJoints; ++joint) {
       ASSERT_LE(std::abs(torques[joint]), device.max_joint_torque) << i;
       ASSERT_LE(std::abs(torques[joint] - last[joint]), step * (1.0 + 1e-9)) << i;
     }
@@ -142,4 +143,4 @@ TEST(FeltFingers, OfAStrongWearerGoOnAgainstTheLargestTorque) {
 }
 
 }  // namespace
-}  // namespace glissade::grasping
+}  // namespace glissade::haptics

@@ -12,14 +12,18 @@
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/grasp_simulation.h>
 
-#include "life/finger_rows.h"
+#include "loop/finger_rows.h"
 #include "poses.h"
 #include "worn_glove.h"
 
-namespace glissade::grasping {
+namespace glissade::haptics {
 namespace {
 
-using devices::JointValues;
+using grasping::ClaspState;
+using grasping::GraspAnalysis;
+using grasping::Posture;
+using grasping::TouchingSegments;
+using hands::JointValues;
 using std::chrono::milliseconds;
 using test_support::at;
 using test_support::bent_hand;
@@ -60,8 +64,8 @@ TEST(LostHand, ThatStartsInsideGivesNoTorqueUntilItIsFree) {
 }
 
 TEST(LostHand, ThatTheCartMovesIntoSomethingGivesNoTorqueUntilItIsFree) {
-  haptics::FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
-  haptics::HandAnswer answer;
+  FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
+  HandAnswer answer;
   FingerRows rows;
   ClaspedHand hand(geometry::make_sphere(kBall_m, 2000), before_the_palm());
   const auto torques_at = [&](const Posture& target) {
@@ -155,4 +159,4 @@ TEST(LostHand, ComesBackWhereItIsFreeWhereverThatIs) {
 }
 
 }  // namespace
-}  // namespace glissade::grasping
+}  // namespace glissade::haptics

@@ -1,0 +1,130 @@
+#pragma once
+
+/// A scene before anything moves: the objects, which of them hands can hold and which move on their own, the hands, and
+/// the rules of contact.
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Geometry>
+
+#include <glissade/contact/metaphor.h>
+#include <glissade/contact/sliding.h>
+#include <glissade/contact/sliding_rules.h>
+#include <glissade/contact/spring.h>
+#include <glissade/geometry/pose_trajectory.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/grasping/hand_model.h>
+
+namespace glissade::simulation {
+
+/// A mesh in metres: a value, a shared one, or that of a file. Copies share it.
+class SceneMesh {
+ public:
+  SceneMesh() = default;
+  SceneMesh(geometry::TriangleMesh mesh) : SceneMesh(std::make_shared<const geometry::TriangleMesh>(std::move(mesh))) {}
+  SceneMesh(std::shared_ptr<const geometry::TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
+  /// Reads OBJ, STL, PLY or glTF whose unit is `scale` metres, e.g. 1e-3 for millimetres. Throws std::invalid_argument,
+  /// naming the file, as `geometry::import_mesh` does.
+  SceneMesh(const std::filesystem::path& file, double scale);
+
+  const geometry::TriangleMesh& operator*() const { return *mesh_; }
+  const geometry::TriangleMesh* operator->() const { return mesh_.get(); }
+  /// Null only after default construction.
+  const std::shared_ptr<const geometry::TriangleMesh>& shared() const { return mesh_; }
+
+  // Of a mesh from a file:
+  std::optional<double> file_scale() const { return file_scale_; }
+  /// Triangles without area, which were left out.
+  std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
+  /// What `geometry::import_mesh` warns of, each after the name of the file.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+ private:
+  std::shared_ptr<const geometry::TriangleMesh> mesh_;
+  std::optional<double> file_scale_{};
+  std::int64_t degenerate_triangles_ = 0;
+  std::vector<std::string> warnings_{};
+};
+
+/// Motion of an object that moves on its own, or in another hand.
+struct SceneMotion {
+  geometry::PoseTrajectory script_X_WB;
+  std::optional<double> grip_N_per_m{};  ///< default: that of `contact::ScriptedPart`
+};
+
+/// One object at its initial pose.
+struct SceneObject {
+  std::string name;
+  SceneMesh mesh;  ///< in the object's frame B
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  bool movable = false;                 ///< hands can hold it
+  std::optional<SceneMotion> motion{};  ///< then it is not movable, and starts where the script does
+  std::optional<double> margin_m{};     ///< `contact::Obstacle::margin`
+  /// Where the spring of the coupling acts; default: the centre of the bounding box.
+  std::optional<Eigen::Vector3d> compliance_point_B{};
+  std::vector<std::int32_t> giving_way{};  ///< triangles that stop nothing, ascending
+};
+
+/// Objects, all of different names; hands with fingers; and how parts are held and touch.
+struct Scene {
+  std::vector<SceneObject> objects{};
+  std::vector<grasping::HandShape> hands{};
+  contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;
+  /// Of the coupling against translation; against rotation, this times the square of the part's radius.
+  double stiffness_N_per_m = contact::kUsualStiffness_N_per_m;
+  contact::SlidingRules rules{};
+  std::string source = "the scene";  ///< such as the file's name, for messages
+  std::optional<std::string> script_path{};
+  std::optional<Eigen::Isometry3d> X_WGoal{};  ///< of the first part
+
+  /// Throws std::invalid_argument, listing the known names, when there is no object `name`.
+  const SceneObject& find(const std::string& name) const;
+  /// The names of the movable objects, in their order.
+  std::vector<std::string> movable_names() const;
+};
+
+/// A part that hands can hold.
+struct ScenePart {
+  std::string name;
+  std::shared_ptr<const contact::SlidingPart> part_V;
+  Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
+};
+
+/// The objects of a scene, prepared for contact: objects of one mesh share their body. Bodies are numbered as in
+/// contacts: obstacles, parts, objects that move on their own.
+struct SceneBodies {
+  std::string source;            ///< `Scene::source`
+  std::vector<ScenePart> parts;  ///< at least one
+  std::vector<contact::Obstacle> obstacles;
+  std::vector<contact::ScriptedPart> moving;  ///< the objects that move on their own
+  std::vector<std::string> body_names;        ///< by the number of the body
+  std::optional<Eigen::Isometry3d> X_WGoal;   ///< of the first part
+
+  /// Number of the part with this name; nothing if there is none.
+  std::optional<std::size_t> part_number(const std::string& name) const;
+  /// The names of all parts, in quotes, for messages.
+  std::string part_names() const;
+};
+
+/// Takes the objects with these names as the parts, in this order; other movable ones are obstacles. Throws
+/// std::invalid_argument, naming the scene and the object, when there is no such object or no other one, when an object
+/// at its pose has no area or reaches beyond ±1e9 m, when a part moves on its own, when two objects have one name, and
+/// for more than `contact::kMaxParts` parts and objects that move on their own. Cost: the trees of the meshes.
+SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names);
+
+/// All parts of a simulation: those that hands can hold, then the objects that move on their own. The stiffness is as
+/// in `Scene`.
+std::vector<contact::HeldPart> held_parts(const SceneBodies& bodies, contact::Metaphor metaphor,
+                                          double stiffness_N_per_m);
+
+/// The triangles of an object that stop something.
+std::shared_ptr<const geometry::TriangleMesh> stopping_mesh(const SceneObject& object);
+
+}  // namespace glissade::simulation

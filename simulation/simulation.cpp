@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include <glissade/base/assert.h>
+#include <glissade/collision/dop_query.h>
+#include <glissade/simulation/simulation.h>
+
+namespace glissade::simulation {
+namespace {
+
+SceneBodies movable_bodies(const Scene& scene) {
+  const std::vector<std::string> names = scene.movable_names();
+  if (names.empty()) throw std::invalid_argument(scene.source + ": no object is movable; a hand needs a part to hold");
+  return bodies_of(scene, names);
+}
+
+std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const Scene& scene) {
+  std::vector<std::shared_ptr<const grasping::HandModel>> models;
+  for (const grasping::HandShape& shape : scene.hands)
+    models.push_back(std::make_shared<const grasping::HandModel>(grasping::make_hand(shape)));
+  return models;
+}
+
+double greatest_margin(const SceneBodies& bodies, double margin) {
+  for (const contact::Obstacle& obstacle : bodies.obstacles)
+    margin = std::max(margin, obstacle.margin.value_or(0.0));
+  return margin;
+}
+
+std::vector<Eigen::Isometry3d> poses_of(const contact::MultiPartSliding& parts) {
+  std::vector<Eigen::Isometry3d> X_WV;
+  for (std::size_t p = 0; p < parts.part_count(); ++p)
+    X_WV.push_back(parts.result(p).X_WV);
+  return X_WV;
+}
+
+}  // namespace
+
+Simulation::Simulation(const Scene& scene)
+    : bodies_(movable_bodies(scene)),
+      engine_(bodies_.obstacles, held_parts(bodies_, scene.metaphor, scene.stiffness_N_per_m), models_of(scene),
+              {.sliding = scene.rules}) {
+  for (std::size_t p = 0; p < part_count(); ++p)
+    tracked_.push_back(
+        {contact::ContactTracker(greatest_margin(bodies_, engine_.parts().margin(p))), poses_of(engine_.parts())});
+  X_WG_ = poses_of(engine_.parts());
+}
+
+void Simulation::advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
+  GLISSADE_ASSERT(X_WG.size() == part_count() && engine_.hand_count() == 0);
+  std::copy(X_WG.begin(), X_WG.end(), X_WG_.begin());
+  engine_.advance(X_WG_, {}, milliseconds);
+}
+
+void Simulation::advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds) {
+  engine_.advance(hands, milliseconds);
+}
+
+const std::string& Simulation::name_of_body(std::int32_t body) const {
+  static const std::string kHand = "a hand";
+  const auto number = static_cast<std::size_t>(body);
+  return number < bodies_.body_names.size() ? bodies_.body_names[number] : kHand;
+}
+
+contact::Wrench Simulation::wrench(std::size_t part) const {
+  return contact::contact_wrench(result(part), engine_.parts().p_Vref(part));
+}
+
+std::span<const contact::TrackedContact> Simulation::contacts(std::size_t part) {
+  Tracked& tracked = tracked_[part];
+  const contact::MultiPartSliding& parts = engine_.parts();
+  double travel = 0.0;  // of the other parts since the last update
+  for (std::size_t p = 0; p < parts.part_count(); ++p) {
+    if (p == part) continue;
+    const Eigen::Vector3d& p_Vref = parts.part(p).p_Vref();
+    const geometry::Displacement moved = geometry::displacement_between(tracked.X_WB[p], parts.result(p).X_WV, p_Vref);
+    travel = std::max(travel, moved.v.norm() + moved.w.norm() * parts.part(p).radius());
+  }
+  tracked.X_WB = poses_of(parts);
+  return tracked.tracker.update(result(part), travel);
+}
+
+double Simulation::clearance(std::size_t part, double farthest) {
+  const contact::MultiPartSliding& parts = engine_.parts();
+  double least = farthest;
+  const auto look_at = [&](const contact::ContactBody& body, const Eigen::Isometry3d& X_WB) {
+    const Eigen::Isometry3d X_BV = X_WB.inverse(Eigen::Isometry) * X_WV(part);
+    least = collision::distance(body.tree, parts.part(part).tree, X_BV, workspace_, least).distance;
+  };
+  for (const contact::Obstacle& obstacle : bodies_.obstacles)
+    look_at(*obstacle.body, obstacle.X_WO);
+  for (std::size_t p = 0; p < parts.part_count(); ++p) {
+    if (p != part) look_at(parts.part(p), parts.result(p).X_WV);
+  }
+  return least;
+}
+
+}  // namespace glissade::simulation
