@@ -68,4 +68,12 @@ std::string one_line(std::string_view text) {
   return result;
 }
 
+std::string hexadecimal(std::uint64_t number) {
+  constexpr const char* kDigits = "0123456789abcdef";
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4)
+    text += kDigits[(number >> shift) & 15U];
+  return text;
+}
+
 }  // namespace glissade::apps

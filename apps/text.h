@@ -40,4 +40,7 @@ std::string joined(const Texts& texts, std::string_view separator = ", ") {
   return result;
 }
 
+/// 16 hexadecimal digits.
+std::string hexadecimal(std::uint64_t number);
+
 }  // namespace glissade::apps

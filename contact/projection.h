@@ -50,7 +50,7 @@ inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degree
 /// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each, along its
 /// normal: its share of K (ξ − ξ*). Displacements are valid only when solved.
 template <std::size_t kParts>
-struct ProjectionOf {
+struct Projection {
   ProjectionStatus status = ProjectionStatus::kSolved;
   std::array<geometry::Displacement, kParts> displacements{};
   int active_count = 0;
@@ -60,8 +60,7 @@ struct ProjectionOf {
   const geometry::Displacement& displacement() const { return displacements[0]; }
 };
 
-using Projection = ProjectionOf<1>;
-using CoupledProjection = ProjectionOf<kMaxParts>;
+using CoupledProjection = Projection<kMaxParts>;
 
 /// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
 /// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are kept as an
@@ -73,8 +72,8 @@ class ProjectionSolver {
   /// Allocates memory for `rows` rows of one part. A call allocates only for more rows than any call before.
   explicit ProjectionSolver(std::size_t rows = 0);
 
-  Projection project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
-                     std::span<const ConstraintRow> rows);
+  Projection<1> project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
+                        std::span<const ConstraintRow> rows);
 
   /// The same for up to kMaxParts parts; `wanted` and `stiffness` have one entry for each part. A part of infinite
   /// stiffness stands still, whatever its wanted displacement.
@@ -83,8 +82,8 @@ class ProjectionSolver {
 
  private:
   template <std::size_t kParts, typename Row>
-  ProjectionOf<kParts> solve(std::span<const geometry::Displacement> wanted,
-                             std::span<const CouplingStiffness> stiffness, std::span<const Row> rows);
+  Projection<kParts> solve(std::span<const geometry::Displacement> wanted, std::span<const CouplingStiffness> stiffness,
+                           std::span<const Row> rows);
 
   std::vector<double> normals_;  // column-major, one row for each normal
   std::vector<double> bounds_;

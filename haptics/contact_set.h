@@ -60,12 +60,6 @@ struct PartAnswer {
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
 };
 
-/// The range of each joint of a hand with fingers, rad.
-struct FingerLimits {
-  hands::JointValues lower{};
-  hands::JointValues upper{};
-};
-
 /// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows
 /// by rates · d, to first order.
 struct FingerRow {

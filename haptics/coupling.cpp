@@ -64,14 +64,15 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const c
   return coupling;
 }
 
-contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts, const Velocity& ghost) {
+contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
+                              const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W) {
   const auto along = [](const Eigen::Vector3d& push, double coefficient, const Eigen::Vector3d& velocity) {
     const double magnitude = push.norm();
     if (magnitude == 0.0) return Eigen::Vector3d(Eigen::Vector3d::Zero());
     const Eigen::Vector3d direction = push / magnitude;
     return Eigen::Vector3d(std::clamp(-coefficient * velocity.dot(direction), -magnitude, magnitude) * direction);
   };
-  return {along(contacts.f, damping.translational, ghost.v), along(contacts.t, damping.rotational, ghost.w)};
+  return {along(contacts.f, damping.translational, v_W), along(contacts.t, damping.rotational, w_W)};
 }
 
 }  // namespace glissade::haptics

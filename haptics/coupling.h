@@ -60,16 +60,12 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const c
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever = 0.0) noexcept;
 
-/// Velocity of the ghost's reference point (m/s) and angular velocity of the ghost (rad/s), in world axes.
-struct Velocity {
-  Eigen::Vector3d v = Eigen::Vector3d::Zero();
-  Eigen::Vector3d w = Eigen::Vector3d::Zero();
-};
-
-/// The damper's wrench on the hand. The damper acts along the force and the torque of the contacts only. So it does not
+/// The damper's wrench on the hand, for the velocity v_W of the ghost's reference point (m/s) and the angular velocity
+/// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So it does not
 /// brake a translation perpendicular to the contact normals, and obstacles do not resist such a translation either. The
 /// damper's force never exceeds that of the contacts, nor its torque theirs. So the damper sets in smoothly at a new
 /// contact, and both together never pull the hand towards a contact that the hand leaves.
-contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts, const Velocity& ghost);
+contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
+                              const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W);
 
 }  // namespace glissade::haptics

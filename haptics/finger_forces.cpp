@@ -20,12 +20,12 @@ constexpr double kFullTorque_rad = 0.8 * std::numbers::pi / 180.0;
 constexpr double kShortArm_m = 2e-3;
 constexpr double kFastestFinger_rad_per_s = 6.0;
 
-FingerLimits checked_limits(const FingerLimits& limits) {
-  for (std::size_t joint = 0; joint < limits.lower.size(); ++joint) {
-    if (limits.lower[joint] <= limits.upper[joint]) continue;
+const FingerHand& checked(const FingerHand& hand) {
+  for (std::size_t joint = 0; joint < hand.lower.size(); ++joint) {
+    if (hand.lower[joint] <= hand.upper[joint]) continue;
     throw std::invalid_argument("the limits of joint " + std::to_string(joint) + " of a hand are no range");
   }
-  return limits;
+  return hand;
 }
 
 }  // namespace
@@ -34,8 +34,8 @@ FingerHand finger_hand(const grasping::HandModel& hand) {
   FingerHand result;
   const std::span<const grasping::FlexValue> values = hand.chain.values();
   for (std::size_t v = 0; v < values.size(); ++v) {
-    result.limits.lower[v] = values[v].lower;
-    result.limits.upper[v] = values[v].upper;
+    result.lower[v] = values[v].lower;
+    result.upper[v] = values[v].upper;
   }
   for (const std::size_t l : hand.wrist_links) {
     const grasping::ChainLink& link = hand.chain.links()[l];
@@ -51,9 +51,9 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
                    passive_limit(device, device.joint_damping, wanted, lag_of(device, period, link_delay))});
 }
 
-FingerForces::FingerForces(const FingerLimits& limits, const devices::DeviceDescriptor& device,
+FingerForces::FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                            std::chrono::nanoseconds period)
-    : limits_(checked_limits(limits)),
+    : hand_(checked(hand)),
       device_(device),
       period_(period),
       stiffness_(finger_stiffness(device, period, std::chrono::nanoseconds(0))) {
@@ -71,7 +71,7 @@ const hands::JointValues& FingerForces::update(const hands::JointValues& angles,
   const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
   if (hand.row_count == 0 || !is_finite) return torques_;
   for (std::size_t j = 0; j < angles.size(); ++j)
-    lags_[j] = std::clamp(angles[j], limits_.lower[j], limits_.upper[j]) - hand.visible.angles[j];
+    lags_[j] = std::clamp(angles[j], hand_.lower[j], hand_.upper[j]) - hand.visible.angles[j];
   depths_.fill(0.0);
   for (const FingerRow& row : hand.rows())
     deepen(row, lags_, depths_);

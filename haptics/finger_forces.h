@@ -30,11 +30,12 @@ struct WristJoint {
 
 /// A hand with fingers in the simulation, as far as the kernel knows it.
 struct FingerHand {
-  FingerLimits limits;
+  hands::JointValues lower{};  ///< range of each joint, rad
+  hands::JointValues upper{};
   std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the frame of the last one
 };
 
-/// The limits and the wrist of a hand of the simulation.
+/// That of a hand of the simulation.
 FingerHand finger_hand(const grasping::HandModel& hand);
 
 /// The stiffness (Nm/rad) of the spring at each joint of a glove. It reaches `max_joint_torque` 0.8 degrees deep, so
@@ -72,7 +73,7 @@ class FingerForces {
  public:
   /// Joints that the device does not have get no torque. Throws std::invalid_argument as `devices::validate` and
   /// `validate_tick_period` do, and for limits of the hand that are no numbers or the wrong way round.
-  FingerForces(const FingerLimits& limits, const devices::DeviceDescriptor& device,
+  FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                std::chrono::nanoseconds period = kTickPeriod);
 
   /// From now on the delay of the link, measured at the glove (`GloveState::link_delay`), limits the stiffness.
@@ -90,7 +91,7 @@ class FingerForces {
                                    std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
 
  private:
-  FingerLimits limits_;
+  FingerHand hand_;
   devices::DeviceDescriptor device_;
   std::chrono::nanoseconds period_;
   double stiffness_;
@@ -111,7 +112,7 @@ inline constexpr std::size_t kFingers = 5;
 class FingertipForces {
  public:
   /// Throws as `FingerForces` does.
-  FingertipForces(const FingerLimits& limits, const devices::DeviceDescriptor& device) : springs_(limits, device) {}
+  FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}
 
   /// N, for each finger the sum of the contacts of its last segment. `targets` are the angles (rad) to which the wearer
   /// closes the hand. Cost: O(rows · joints), 0.2 ms at most.

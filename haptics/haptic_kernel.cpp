@@ -8,9 +8,8 @@
 #include <glissade/contact/spring.h>
 #include <glissade/haptics/haptic_kernel.h>
 
-#include "loop/contact_force.h"
 #include "loop/contact_projection.h"
-#include "loop/fingers_of_hand.h"
+#include "loop/hand_in_device.h"
 #include "loop/hand_ledger.h"
 #include "loop/holds.h"
 #include "loop/usable_set.h"
@@ -50,66 +49,23 @@ std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding) {
   return parts;
 }
 
-/// A hand with its device.
-struct HapticKernel::Hand {
-  std::array<Coupling, contact::kMaxParts> couplings{};  // one for each part that can be held
-  Coupling present{};
-  double link_delay_s = 0.0;
-  double lever_m = 0.0;  // from the hand to the reference point, smoothed
-  ContactForce contacts;
-  devices::SafetyEnvelope envelope;
-  bool is_fading = false;                            // in the last tick
-  std::optional<std::size_t> given;                  // the part for its first grip
-  std::optional<std::size_t> last_part;              // that it held in the last tick
-  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  // the reference point in the last tick
-  Eigen::Vector3d p_Wref = Eigen::Vector3d::Zero();  // about which the contacts' wrench was in the last tick
-  std::optional<std::int64_t> grip;                  // that the hand has followed
-  std::int64_t told_grip = 0;                        // of the last states, so many in a row
-  int told_states = 0;
-  std::int64_t told_sequence = -1;
-  std::int64_t sequence = 0;
-  double owed = 0.0;     // J: work of the hand against force that was withheld, as far as it has not been lifted again
-  double lifts = 1.0;    // J, for which the hand may be lifted; many interruptions use it up
-  double taken = 0.0;    // `SafeCommand::taken` of the last command
-  contact::Wrench pull;  // of other hands in the last command
-  contact::Wrench solved;  // of the contacts when they last had a solution
-  std::optional<FingersOfHand> fingers;
+/// The tick of one hand, while it is computed.
+struct HapticKernel::Rendering {
+  std::size_t number;  // of the hand
+  const devices::GloveState& state;
+  const ContactSet& set;
+  std::chrono::nanoseconds age;  // of the set
+  double dt;                     // s
+  bool has_pose;
+  HandTick tick{};
+  PartContacts contacts{};
+  Eigen::Vector3d p_WH{};
+  Eigen::Vector3d p_Wref{};
+  double lever = 0.0;     // m
+  double softness = 1.0;  // share of the coupling's force that is left
 
-  /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
-  /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
-  double lift(double against_withheld, double against_exerted, double dt) noexcept {
-    constexpr double kMostLifts_J = 1.0;
-    constexpr double kRecovery_W = 0.1;
-    owed = std::max(0.0, owed + against_withheld);
-    lifts = std::min(kMostLifts_J, lifts + kRecovery_W * dt);
-    const double lifted = std::clamp(-against_exerted, 0.0, std::min(owed, lifts));
-    owed -= lifted;
-    lifts -= lifted;
-    return lifted;
-  }
-
-  /// Adapts the present coupling to the delay of the link and to the distance of the part's reference point. Returns
-  /// the share of the coupling's force that is left: force and torque shrink alike, so that the wrench stays a sum of
-  /// contact normals. It applies to what is wanted from now on: a force that is there falls from where it is.
-  double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
-                double distance, bool is_new, double dt) noexcept {
-    constexpr double kTime_s = 0.1;
-    constexpr double kMost_s = 1.0;
-    constexpr double kFastest_m_per_s = 10.0;
-    const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
-    link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
-    if (std::isfinite(distance)) {
-      // A state that is wrong for a moment moves it little.
-      const double most = is_new ? distance + lever_m : kFastest_m_per_s * dt;
-      lever_m += std::clamp((is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (distance - lever_m), -most, most);
-    }
-    const auto delay =
-        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
-    present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay, lever_m);
-    if (fingers) fingers->set_link_delay(delay);
-    return std::min(present.stiffness.translational / coupling.stiffness.translational,
-                    present.stiffness.rotational / coupling.stiffness.rotational);
-  }
+  /// The part in the hand; of a hand without one, the first.
+  std::size_t part() const { return tick.part.value_or(0); }
 };
 
 HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
@@ -128,12 +84,12 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
     ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kHeadroom * hand.device.max_force);
     std::optional<FingersOfHand> fingers;
     if (hand.fingers) fingers.emplace(*hand.fingers, hand.device, period);
-    hands_.push_back(
-        std::make_unique<Hand>(Hand{.couplings = couplings,
-                                    .present = couplings.front(),
-                                    .contacts = contacts,
-                                    .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period),
-                                    .fingers = std::move(fingers)}));
+    hands_.push_back(std::make_unique<HandInDevice>(
+        HandInDevice{.couplings = couplings,
+                     .present = couplings.front(),
+                     .contacts = contacts,
+                     .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period),
+                     .fingers = std::move(fingers)}));
   }
   contacts_ = std::make_unique<ContactProjection>(parts_.size());
   ledger_ = std::make_unique<HandLedger>();
@@ -169,7 +125,7 @@ void HapticKernel::release(std::size_t hand) noexcept {
 }
 
 void HapticKernel::stop() noexcept {
-  for (const std::unique_ptr<Hand>& hand : hands_)
+  for (const std::unique_ptr<HandInDevice>& hand : hands_)
     hand->envelope.stop();
 }
 
@@ -206,7 +162,7 @@ HapticTick HapticKernel::tick(std::span<const devices::GloveState* const> states
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     if (states[h] == nullptr) continue;
     // Judged before the pose can move anything that another hand feels.
-    Hand& hand = *hands_[h];
+    HandInDevice& hand = *hands_[h];
     const bool is_trusted = hand.envelope.trusts(*states[h], now) && has_pose(*states[h]) &&
                             !(hand.fingers && !FingersOfHand::have_angles(*states[h]));
     poses[h].is_fading = hand.is_fading || !is_trusted;
@@ -252,7 +208,7 @@ void HapticKernel::follow_decision(std::size_t number, const HandAnswer& answer)
 
 /// One state alone may be wrong, and one while the force fades too.
 void HapticKernel::follow_grip(std::size_t number, const devices::GloveState& state, const ContactSet& set) noexcept {
-  Hand& hand = *hands_[number];
+  HandInDevice& hand = *hands_[number];
   const bool is_closed = state.grip % 2 == 1;
   const bool is_first = hand.told_sequence < 0;
   if (state.sequence < hand.told_sequence) hand.grip.reset();  // the glove was started again, and counts anew
@@ -289,84 +245,102 @@ std::optional<std::size_t> HapticKernel::nearest_part(const Eigen::Vector3d& p_W
 
 HandTick HapticKernel::render(std::size_t number, const devices::GloveState& state, const ContactSet& set,
                               std::chrono::nanoseconds age, std::chrono::nanoseconds now, double dt) noexcept {
-  Hand& hand = *hands_[number];
-  HandTick tick;
-  tick.part = holds_->part_of(number);
-  const std::size_t p = tick.part.value_or(0);
-  const KernelPart& part = parts_[p];
-  const Coupling& coupling = hand.couplings[p];
-  const bool is_finite = has_pose(state);
-  const Eigen::Vector3d p_WH = is_finite ? Eigen::Vector3d(state.X_WH.translation()) : hand.p_Wref;
-  const Eigen::Vector3d& p_Vref = set.parts[p].p_Vref;
-  const double lever = part.radius + (p_Vref - part.p_Vref).norm();  // no point of the part is farther from p_Vref
-  const Eigen::Vector3d p_Wref = tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(number) * p_Vref) : p_WH;
-  const double softness =
-      hand.soften(coupling, period_, state.link_delay, (p_Wref - p_WH).norm(), tick.part != hand.last_part, dt);
-  if (tick.part != hand.last_part || p_Vref != hand.p_Vref) {
-    hand.contacts.move_reference(hand.p_Wref, p_Wref);
-    hand.owed = 0.0;
-    hand.pull = {};
-    hand.solved = {};
-  }
-  hand.last_part = tick.part;
-  hand.p_Vref = p_Vref;
-  hand.p_Wref = p_Wref;
-
-  PartContacts contacts;
-  double motion = 0.0;
-  if (tick.part) {
-    hand.contacts.hold(lever, {softness * coupling.stiffness.translational, softness * coupling.stiffness.rotational});
-    contacts = contacts_->of_part(p);
-    contacts.wrench = scaled(holds_->on_hand(number, contacts.wrench), softness);
-    motion = holds_->ghost_motion(p, lever);
-    tick.pull = scaled(holds_->pull_on(number), softness);
-    const double pull = tick.pull.f.norm();
-    const double most = kHeadroom * hand.envelope.descriptor().max_force;
-    if (pull > most) tick.pull = scaled(tick.pull, most / pull);
-  }
-  tick.contacts = hand.contacts.update(contacts, age, motion, dt);
-  tick.contact_share = hand.contacts.share();
-  tick.is_unsolved = contacts.is_unsolved;
-  if (!contacts.is_unsolved) {
-    hand.solved = {tick.contacts.f + hand.contacts.withheld().f, tick.contacts.t + hand.contacts.withheld().t};
-  }
-  if (hand.solved.f.isZero(0.0) && hand.solved.t.isZero(0.0)) hand.owed = 0.0;
-  const double against_exerted = holds_->work_against(number, tick.contacts);
-  // Without a solution, what the contacts exerted before stands for what they would exert.
-  const double against_withheld = contacts.is_unsolved ? holds_->work_against(number, hand.solved) - against_exerted
-                                                       : holds_->work_against(number, hand.contacts.withheld());
-  const double share = softness * share_of(tick.contacts.f, contacts.wrench.f) * holds_->supply_share(number);
-  // The pull of the last tick acted on this way.
-  const double of_pull = -holds_->work_against(number, std::exchange(hand.pull, tick.pull));
-  const double lifted = hand.lift(against_withheld, against_exerted, dt);
-
+  HandInDevice& hand = *hands_[number];
+  Rendering r{.number = number, .state = state, .set = set, .age = age, .dt = dt, .has_pose = has_pose(state)};
+  r.tick.part = holds_->part_of(number);
+  refer(hand, r);
+  exert(hand, r);
   devices::GloveCommand command;
   command.sequence = ++hand.sequence;
   command.state_sequence = state.sequence;
   command.state_time = state.time;
   command.time = now;
-  ledger_->collect(number, state.taken.value_or(hand.taken));
-  command.supply = ledger_->book(number, {.from_hands = of_pull + share * contacts.from_hands,
-                                          .from_elsewhere = lifted + share * contacts.from_movers});
-  if (is_finite) {
-    const Velocity ghost{state.v_WH + state.w_WH.cross(p_Wref - p_WH), state.w_WH};
-    const contact::Wrench damping = damper_wrench(hand.present.damping, tick.contacts, ghost);
+  command.supply = book(hand, r);
+  fill(hand, r, command);
+  r.tick.command = hand.envelope.limit(command, state, now);
+  hand.is_fading = r.tick.command.reasons().is_fading();
+  hand.taken = r.tick.command.taken();
+  return r.tick;
+}
+
+/// Where the hand and its reference point are, and how soft the coupling is there.
+void HapticKernel::refer(HandInDevice& hand, Rendering& r) noexcept {
+  const std::size_t p = r.part();
+  const KernelPart& part = parts_[p];
+  const Eigen::Vector3d& p_Vref = r.set.parts[p].p_Vref;
+  const bool is_new = r.tick.part != hand.last_part;
+  r.p_WH = r.has_pose ? Eigen::Vector3d(r.state.X_WH.translation()) : hand.p_Wref;
+  r.lever = part.radius + (p_Vref - part.p_Vref).norm();  // no point of the part is farther from p_Vref
+  r.p_Wref = r.tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(r.number) * p_Vref) : r.p_WH;
+  r.softness = hand.soften(hand.couplings[p], period_, r.state.link_delay, (r.p_Wref - r.p_WH).norm(), is_new, r.dt);
+  if (is_new || p_Vref != hand.p_Vref) {
+    hand.contacts.move_reference(hand.p_Wref, r.p_Wref);
+    hand.owed = 0.0;
+    hand.pull = {};
+    hand.solved = {};
+  }
+  hand.last_part = r.tick.part;
+  hand.p_Vref = p_Vref;
+  hand.p_Wref = r.p_Wref;
+}
+
+/// The force of the contacts, and the pull of other hands.
+void HapticKernel::exert(HandInDevice& hand, Rendering& r) noexcept {
+  double motion = 0.0;
+  if (r.tick.part) {
+    const std::size_t p = r.part();
+    const contact::CouplingStiffness& stiffness = hand.couplings[p].stiffness;
+    hand.contacts.hold(r.lever, {r.softness * stiffness.translational, r.softness * stiffness.rotational});
+    r.contacts = contacts_->of_part(p);
+    r.contacts.wrench = scaled(holds_->on_hand(r.number, r.contacts.wrench), r.softness);
+    motion = holds_->ghost_motion(p, r.lever);
+    r.tick.pull = scaled(holds_->pull_on(r.number), r.softness);
+    const double pull = r.tick.pull.f.norm();
+    const double most = kHeadroom * hand.envelope.descriptor().max_force;
+    if (pull > most) r.tick.pull = scaled(r.tick.pull, most / pull);
+  }
+  r.tick.contacts = hand.contacts.update(r.contacts, r.age, motion, r.dt);
+  r.tick.contact_share = hand.contacts.share();
+  r.tick.is_unsolved = r.contacts.is_unsolved;
+}
+
+/// The energy that this tick gives to the hand or takes from it. Returns the supply (`GloveCommand::supply`).
+double HapticKernel::book(HandInDevice& hand, const Rendering& r) noexcept {
+  const contact::Wrench& exerted = r.tick.contacts;
+  const contact::Wrench& withheld = hand.contacts.withheld();
+  if (!r.tick.is_unsolved) hand.solved = {exerted.f + withheld.f, exerted.t + withheld.t};
+  if (hand.solved.f.isZero(0.0) && hand.solved.t.isZero(0.0)) hand.owed = 0.0;
+  const double against_exerted = holds_->work_against(r.number, exerted);
+  // Without a solution, what the contacts exerted before stands for what they would exert.
+  const double against_withheld = r.tick.is_unsolved ? holds_->work_against(r.number, hand.solved) - against_exerted
+                                                     : holds_->work_against(r.number, withheld);
+  const double share = r.softness * share_of(exerted.f, r.contacts.wrench.f) * holds_->supply_share(r.number);
+  // The pull of the last tick acted on this way.
+  const double of_pull = -holds_->work_against(r.number, std::exchange(hand.pull, r.tick.pull));
+  const double lifted = hand.lift(against_withheld, against_exerted, r.dt);
+  ledger_->collect(r.number, r.state.taken.value_or(hand.taken));
+  return ledger_->book(r.number, {.from_hands = of_pull + share * r.contacts.from_hands,
+                                  .from_elsewhere = lifted + share * r.contacts.from_movers});
+}
+
+/// The wanted wrench on the hand root, and the torques of the joints.
+void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCommand& command) noexcept {
+  const HandTick& tick = r.tick;
+  if (r.has_pose) {
+    const Eigen::Vector3d v_Wref = r.state.v_WH + r.state.w_WH.cross(r.p_Wref - r.p_WH);
+    const contact::Wrench damping = damper_wrench(hand.present.damping, tick.contacts, v_Wref, r.state.w_WH);
     const contact::Wrench on_hand = contact::about_point(
-        {tick.contacts.f + damping.f + tick.pull.f, tick.contacts.t + damping.t + tick.pull.t}, p_Wref, p_WH);
+        {tick.contacts.f + damping.f + tick.pull.f, tick.contacts.t + damping.t + tick.pull.t}, r.p_Wref, r.p_WH);
     command.f_H_W = on_hand.f;
     command.t_H_W = on_hand.t;
   }
   if (hand.fingers) {
-    const FingerLoad::Load load{tick.part ? static_cast<std::int32_t>(p) : -1,
+    const FingerLoad::Load load{tick.part ? static_cast<std::int32_t>(*tick.part) : -1,
                                 {tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t},
-                                p_Wref,
-                                lever};
-    command.joint_torques = hand.fingers->torques(state, set.hands[number], age, load, dt);
+                                r.p_Wref,
+                                r.lever};
+    command.joint_torques = hand.fingers->torques(r.state, r.set.hands[r.number], r.age, load, r.dt);
   }
-  tick.command = hand.envelope.limit(command, state, now);
-  hand.is_fading = tick.command.reasons().is_fading();
-  hand.taken = tick.command.taken();
-  return tick;
 }
 
 double HapticKernel::seconds_since_last_tick(std::chrono::nanoseconds now) noexcept {

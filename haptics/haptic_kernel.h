@@ -28,6 +28,7 @@ class MultiPartSliding;
 namespace glissade::haptics {
 
 class ContactProjection;
+struct HandInDevice;
 class HandLedger;
 class Holds;
 
@@ -50,6 +51,15 @@ struct KernelHand {
   /// A hand with fingers holds what the simulation decides (`HandAnswer::part`), and its joints feel what stops them.
   /// Without them, the hand holds by its grip.
   std::optional<FingerHand> fingers{};
+};
+
+/// A device of a loop, and what its hand takes. The first devices lead the hands of the simulation, which take hold
+/// with their fingers.
+template <typename Device>
+struct HandInLoop {
+  Device* device = nullptr;
+  /// Of a hand without fingers: number of the part that it grasps at the first state; none: it is told later.
+  std::optional<std::size_t> part = 0;
 };
 
 /// A hand that closes takes no part whose bounding sphere is farther from the hand root than this, metres.
@@ -119,7 +129,7 @@ class HapticKernel {
   const Coupling& present_coupling(std::size_t hand) const;
 
  private:
-  struct Hand;
+  struct Rendering;
 
   const ContactSet& usable(const ContactSet& set) noexcept;
   void follow_grip(std::size_t hand, const devices::GloveState& state, const ContactSet& set) noexcept;
@@ -128,10 +138,14 @@ class HapticKernel {
   double seconds_since_last_tick(std::chrono::nanoseconds now) noexcept;
   HandTick render(std::size_t hand, const devices::GloveState& state, const ContactSet& set,
                   std::chrono::nanoseconds age, std::chrono::nanoseconds now, double dt) noexcept;
+  void refer(HandInDevice& hand, Rendering& r) noexcept;
+  void exert(HandInDevice& hand, Rendering& r) noexcept;
+  double book(HandInDevice& hand, const Rendering& r) noexcept;
+  void fill(HandInDevice& hand, const Rendering& r, devices::GloveCommand& command) noexcept;
 
   std::vector<KernelPart> parts_;
   std::chrono::nanoseconds period_;
-  std::vector<std::unique_ptr<Hand>> hands_;
+  std::vector<std::unique_ptr<HandInDevice>> hands_;
   ContactSet last_poses_;  // of the parts; without rows
   std::unique_ptr<Holds> holds_;
   std::unique_ptr<ContactProjection> contacts_;

@@ -32,14 +32,14 @@ std::int64_t page_faults_of_this_thread() noexcept {
 
 }  // namespace
 
-HapticServer::HapticServer(const std::vector<HandOfServer>& hands, grasping::GraspSimulation& simulation,
-                           HapticServerOptions options)
+HapticServer::HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands,
+                           grasping::GraspSimulation& simulation, HapticServerOptions options)
     : options_(std::move(options)),
       clock_(options_.clock != nullptr ? *options_.clock : steady_clock_),
       kernel_(kernel_parts(simulation.parts()), kernel_hands(hands, simulation), options_.period),
       answerer_(std::make_unique<Answerer>(simulation)) {
   validate_tick_period(options_.period);
-  for (const HandOfServer& hand : hands)
+  for (const HandInLoop<devices::GloveDevice>& hand : hands)
     devices_.push_back(hand.device);
   record_.hand_count = static_cast<std::int32_t>(hands.size());
   sets_.publish(answerer_->at_start());

@@ -35,11 +35,6 @@ namespace glissade::haptics {
 
 class Answerer;
 
-/// Receives the state of each counted tick (`HapticServerOptions::ticks`). Called by the haptic thread; must be
-/// real-time safe. After an exception from it the force fades, as after one of the simulation, and it is called no
-/// more.
-using StateSink = std::function<void(const devices::HapticState&)>;
-
 struct HapticServerOptions {
   /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on it: all rates
   /// of change are per second.
@@ -50,17 +45,11 @@ struct HapticServerOptions {
   /// Time before each deadline for which the haptic thread reads the clock instead of sleeping, at most half of the
   /// period: its ticks start on time, and it occupies a processor so much longer.
   std::chrono::nanoseconds spin{0};
-  StateSink sink{};                  ///< may be empty
+  /// Receives the state of each counted tick; may be empty. Called by the haptic thread; must be real-time safe. After
+  /// an exception from it the force fades, as after one of the simulation, and it is called no more.
+  std::function<void(const devices::HapticState&)> sink{};
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
   realtime::Clock* clock = nullptr;  ///< null: the steady clock of the system; must outlive the server
-};
-
-/// A device of the server. The first devices lead the hands of the simulation, which take hold with their fingers.
-struct HandOfServer {
-  devices::GloveDevice* device = nullptr;
-  /// Of a hand without fingers: number of the part that it grasps at the first state; none: `HapticServer::grasp`
-  /// follows.
-  std::optional<std::size_t> part = 0;
 };
 
 /// Measurements of the server. Complete after `stop`.
@@ -82,7 +71,7 @@ class HapticServer {
   /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
   /// simulation, which should have `contact::real_time_rules`. Throws std::invalid_argument for a null device or a
   /// period out of bounds, and as the constructors of `HapticKernel` and `realtime::PeriodicThread` do.
-  HapticServer(const std::vector<HandOfServer>& hands, grasping::GraspSimulation& simulation,
+  HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands, grasping::GraspSimulation& simulation,
                HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;

@@ -8,8 +8,9 @@
 
 namespace glissade::haptics {
 
-void run_offline(const std::vector<HandOffline>& hands, grasping::GraspSimulation& simulation, std::int64_t ticks,
-                 const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options) {
+void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, grasping::GraspSimulation& simulation,
+                 std::int64_t ticks, const std::function<void(const devices::HapticState&)>& sink,
+                 const OfflineRunOptions& options) {
   validate_tick_period(options.period);
   if (!sink) throw std::invalid_argument("an offline run needs a sink for its states, not an empty function");
   HapticKernel kernel(kernel_parts(simulation.parts()), kernel_hands(hands, simulation), options.period);

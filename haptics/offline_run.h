@@ -28,12 +28,6 @@ namespace glissade::haptics {
 class Answerer;
 class AnswersAhead;
 
-/// A simulated glove of an offline run, as `HandOfServer`: the part that its hand grasps at the first tick.
-struct HandOffline {
-  devices::SimulatedGlove* device = nullptr;
-  std::optional<std::size_t> part = 0;
-};
-
 struct OfflineRunOptions {
   std::chrono::nanoseconds period = kTickPeriod;
   /// Called before each tick, with its number, from 1 on: for grasps and releases.
@@ -45,8 +39,9 @@ struct OfflineRunOptions {
 /// poses of the previous tick. Hands, parts and couplings are as in `HapticServer`. Throws std::invalid_argument for a
 /// null glove, an empty sink or a period out of the bounds of `validate_tick_period`, and as the constructor of
 /// `HapticKernel` does.
-void run_offline(const std::vector<HandOffline>& hands, grasping::GraspSimulation& simulation, std::int64_t ticks,
-                 const std::function<void(const devices::HapticState&)>& sink, const OfflineRunOptions& options = {});
+void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, grasping::GraspSimulation& simulation,
+                 std::int64_t ticks, const std::function<void(const devices::HapticState&)>& sink,
+                 const OfflineRunOptions& options = {});
 
 /// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes. The
 /// simulation works in a thread of its own, ahead of the ticks: it needs nothing but the recorded ghosts. Not

@@ -53,6 +53,48 @@ double greatest(const hands::JointValues& torques) {
   return most;
 }
 
+void add_part(const devices::HapticPartState& part, const Eigen::Isometry3d& X_OW, Bytes& frame) {
+  frame.add(X_OW * part.X_WG);
+  frame.add(X_OW * part.X_WV);
+  const geometry::Displacement lag = part.lag();
+  frame.add(lag.v.norm());
+  frame.add(lag.w.norm());
+  frame.add(static_cast<std::int32_t>(part.state));
+  frame.add(part.contact_count);
+}
+
+void add_hand(const devices::HapticHandState& hand, double greatest_force_N, Bytes& frame) {
+  frame.add(hand.part);
+  frame.add(hand.force_W);
+  frame.add(hand.torque_V_W);
+  frame.add(greatest_force_N);
+  frame.add(hand.contact_share);
+  frame.add(hand.are_contacts_unsolved ? 1 : 0);
+  frame.add(devices::to_bits(hand.reasons));
+  frame.add(devices::to_bits(hand.glove_reasons));
+  frame.add(devices::energy_left(hand));
+  frame.add(static_cast<std::int32_t>(hand.visible.activity));
+  frame.add(static_cast<std::int32_t>(hand.visible.grasp));
+  frame.add(static_cast<std::int32_t>(hand.visible.form));
+  frame.add(hand.visible.touching);  // below 2^24, so that single precision has it exactly
+  frame.add(static_cast<std::int32_t>(grasping::grasp_of(hand.visible).lack()));
+  frame.add(greatest(hand.joint_torques));
+}
+
+void add_contact(const devices::HapticContact& contact, Bytes& frame) {
+  frame.add(contact.part);
+  frame.add(contact.p_V);
+  frame.add(contact.n_W);
+}
+
+void add_patch(const devices::HapticPatch& patch, Bytes& frame) {
+  frame.add(patch.part);
+  frame.add(patch.contact_count);
+  frame.add(patch.p_V);
+  frame.add(patch.n_W);
+  frame.add(patch.extent);
+}
+
 }  // namespace
 
 FrameMaker::FrameMaker(const ViewScene& scene) : X_OW_(Eigen::Translation3d(-scene.p_WO())) {
@@ -88,58 +130,22 @@ std::string FrameMaker::make() {
   frame.add(contact_count);
   frame.add(patch_count);
   frame.add(newest_.patches_left_out);
-  for (std::size_t p = 0; p < part_count; ++p) {
-    const devices::HapticPartState& part = newest_.parts[p];
-    frame.add(X_OW_ * part.X_WG);
-    frame.add(X_OW_ * part.X_WV);
-    const geometry::Displacement lag = part.lag();
-    frame.add(lag.v.norm());
-    frame.add(lag.w.norm());
-    frame.add(static_cast<std::int32_t>(part.state));
-    frame.add(part.contact_count);
-  }
+  for (std::size_t p = 0; p < part_count; ++p)
+    add_part(newest_.parts[p], X_OW_, frame);
   for (std::size_t h = 0; h < hand_count; ++h) {
-    const devices::HapticHandState& hand = newest_.hands[h];
-    frame.add(hand.part);
-    frame.add(hand.force_W);
-    frame.add(hand.torque_V_W);
-    frame.add(forces_N_[h]);
-    frame.add(hand.contact_share);
-    frame.add(hand.are_contacts_unsolved ? 1 : 0);
-    frame.add(devices::to_bits(hand.reasons));
-    frame.add(devices::to_bits(hand.glove_reasons));
-    frame.add(devices::energy_left(hand));
-    frame.add(static_cast<std::int32_t>(hand.visible.activity));
-    frame.add(static_cast<std::int32_t>(hand.visible.grasp));
-    frame.add(static_cast<std::int32_t>(hand.visible.form));
-    frame.add(hand.visible.touching);  // below 2^24, so that single precision has it exactly
-    frame.add(static_cast<std::int32_t>(grasping::grasp_of(hand.visible).lack()));
-    frame.add(greatest(hand.joint_torques));
-    const bool is_shown = h < models_.size() && models_[h] && hands::is_present(hand.visible.activity);
-    if (!is_shown) {
-      frame.add(0);
-      continue;
-    }
-    links_.resize(models_[h]->chain.links().size());
-    models_[h]->chain.poses(X_OW_ * hand.visible.X_WH, hand.visible.angles, links_);
+    add_hand(newest_.hands[h], forces_N_[h], frame);
+    const hands::VisibleHand& visible = newest_.hands[h].visible;
+    links_.resize(h < models_.size() && models_[h] && is_present(visible.activity) ? models_[h]->chain.links().size()
+                                                                                   : 0);
+    if (!links_.empty()) models_[h]->chain.poses(X_OW_ * visible.X_WH, visible.angles, links_);
     frame.add(links_.size());
     for (const Eigen::Isometry3d& X_OL : links_)
       frame.add(X_OL);
   }
-  for (std::size_t c = 0; c < contact_count; ++c) {
-    const devices::HapticContact& contact = newest_.contacts[c];
-    frame.add(contact.part);
-    frame.add(contact.p_V);
-    frame.add(contact.n_W);
-  }
-  for (std::size_t p = 0; p < patch_count; ++p) {
-    const devices::HapticPatch& patch = newest_.patches[p];
-    frame.add(patch.part);
-    frame.add(patch.contact_count);
-    frame.add(patch.p_V);
-    frame.add(patch.n_W);
-    frame.add(patch.extent);
-  }
+  for (std::size_t c = 0; c < contact_count; ++c)
+    add_contact(newest_.contacts[c], frame);
+  for (std::size_t p = 0; p < patch_count; ++p)
+    add_patch(newest_.patches[p], frame);
   has_news_ = false;
   age_ms_ = lateness_us_ = duration_us_ = 0.0;
   forces_N_.fill(0.0);

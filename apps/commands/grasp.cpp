@@ -127,7 +127,7 @@ class GraspTables {
               const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, const GraspOptions& options)
       : scene_(scene), simulation_(simulation), hands_(hands), hand_rows_(options.out, hand_columns()) {
     for (const std::shared_ptr<const grasping::HandModel>& hand : hands)
-      fingertips_.emplace_back(haptics::finger_hand(*hand).limits, devices::simulated_glove_descriptor());
+      fingertips_.emplace_back(haptics::finger_hand(*hand), devices::simulated_glove_descriptor());
     if (!options.objects.empty()) object_rows_ = std::make_unique<CsvWriter>(options.objects, object_columns());
   }
 

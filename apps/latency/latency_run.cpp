@@ -152,7 +152,8 @@ class LatencyRun {
     if (is_far) helper_.end();
   }
 
-  void run_loop(StampedGlove& glove, const haptics::StateSink& sink, LinkFigures& figures) {
+  void run_loop(StampedGlove& glove, const std::function<void(const devices::HapticState&)>& sink,
+                LinkFigures& figures) {
     grasping::GraspSimulation simulation = make_simulation();
     haptics::HapticServer server({{&glove}}, simulation, {.period = kLatencyTick, .ticks = ticks(), .sink = sink});
     realtime::PeriodicThread bare_loop(clock_, {.period = kLatencyTick, .fifo_priority = realtime::kHapticPriority},

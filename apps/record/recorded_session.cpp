@@ -12,14 +12,6 @@ namespace {
 
 constexpr int kVersion = 2;
 
-std::string hexadecimal(std::uint64_t number) {
-  constexpr const char* kDigits = "0123456789abcdef";
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4)
-    text += kDigits[(number >> shift) & 15U];
-  return text;
-}
-
 nlohmann::json json_of(const std::optional<grasping::HandShape>& shape) {
   if (!shape) return nullptr;
   return {{"side", shape->side == hands::HandSide::kLeft ? "left" : "right"},

@@ -108,4 +108,8 @@ SessionSummary summarize(const Session& session, const HapticScene& scene, const
   return summary;
 }
 
+std::string name_of_state(std::size_t number) {
+  return std::string(devices::name_of(devices::part_state_from_number(static_cast<std::int32_t>(number))));
+}
+
 }  // namespace glissade::apps

@@ -60,6 +60,9 @@ struct PartSummary {
   std::int64_t state_changes = 0;                                ///< from one tick to the next
 };
 
+/// The name of the state of a part with this number.
+std::string name_of_state(std::size_t number);
+
 /// The figures of a hand over the kept ticks.
 struct HandSummary {
   std::int64_t device = 0;  ///< number of its glove

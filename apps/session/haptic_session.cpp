@@ -153,6 +153,52 @@ std::unique_ptr<viewer::ViewServer> view_of(const HapticScene& scene, const RunS
   return server;
 }
 
+/// What each hand takes, with what is known of its glove. Without a glove, the session ends at once.
+std::vector<Grip> grips_of(const std::vector<SessionHand>& wanted, const std::vector<devices::GloveInfo>& infos) {
+  std::vector<Grip> grips;
+  for (std::size_t h = 0; h < wanted.size(); ++h) {
+    Grip& grip = grips.emplace_back();
+    grip = {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), wanted[h].part,
+            wanted[h].fingers};
+    if (grip.fingers && h < infos.size() && infos[h].side != hands::HandSide::kUnknown)
+      grip.fingers->side = infos[h].side;
+  }
+  return grips;
+}
+
+std::chrono::nanoseconds period_of_fastest(const std::vector<Grip>& grips) {
+  std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
+  for (const Grip& grip : grips)
+    fastest = std::min(fastest, period_of(grip.device));
+  return fastest;
+}
+
+/// Of a run of this length; 0 of one without an end.
+std::int64_t ticks_of(const RunSettings& settings, std::chrono::nanoseconds period) {
+  return std::llround((settings.seconds + settings.longer_s) / std::chrono::duration<double>(period).count());
+}
+
+/// Tells what happens while the server runs.
+void watch_until_end(haptics::HapticServer& server, const std::vector<std::unique_ptr<devices::LcmGlove>>& gloves,
+                     const std::vector<std::int64_t>& numbers, RunWatch& run_watch, RunRecorders& recorders,
+                     const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
+  std::set<std::string> told;
+  std::vector<LinkWatch> links;
+  for (const std::int64_t number : numbers)
+    links.emplace_back(number);
+  while (!server.is_done() && !server.has_failed() && !should_stop()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    RunWatch::News news = run_watch.news(server.late_ticks());
+    for (std::size_t h = 0; h < gloves.size(); ++h) {
+      for (std::string& sentence : links[h].news(gloves[h]->statistics()))
+        if (told.insert(sentence).second) news.events.push_back(std::move(sentence));  // it may concern all gloves
+    }
+    for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
+      news.events.push_back(std::move(sentence));
+    watch({.ticks = server.ticks(), .sentences = std::move(news.events), .status = std::move(news.status)});
+  }
+}
+
 }  // namespace
 
 Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
@@ -194,34 +240,23 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   if (settings.period) check_spin(settings.spin, *settings.period);
   if (settings.view_port) viewer::ViewServer({}, *settings.view_port);  // throws if the port is taken
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
-  std::vector<Grip> grips;
-  std::chrono::nanoseconds fastest = haptics::kLongestTickPeriod;
-  for (std::size_t h = 0; h < settings.hands.size(); ++h) {
-    // Without a glove, the session below ends at once.
-    Grip& grip = grips.emplace_back();
-    grip = {h < infos.size() ? infos[h].descriptor : devices::simulated_glove_descriptor(), settings.hands[h].part,
-            settings.hands[h].fingers};
-    if (grip.fingers && h < infos.size() && infos[h].side != hands::HandSide::kUnknown)
-      grip.fingers->side = infos[h].side;
-    fastest = std::min(fastest, period_of(grips.back().device));
-  }
+  const std::vector<Grip> grips = grips_of(settings.hands, infos);
+  const std::chrono::nanoseconds fastest = period_of_fastest(grips);
   const std::chrono::nanoseconds period = settings.period.value_or(fastest);
   check_spin(settings.spin, period);
   if (period > fastest)
     watch({.sentences = {"a glove is faster than the haptic loop: its force may fade (--rate-hz)"}});
-  const double most_s = settings.seconds + settings.longer_s;
-  const std::int64_t ticks = std::llround(most_s / std::chrono::duration<double>(period).count());
+  const std::int64_t ticks = ticks_of(settings, period);
   grasping::GraspSimulation simulation =
       start_simulation(scene, grips, settings.choice, contact::real_time_rules(), period);
   watch({.sentences = softer_devices(grips, settings.choice, period)});
-  const contact::MultiPartSliding& sliding = simulation.parts();
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
-                                                          sliding.part_count(), settings.hands.size());
+                                                          simulation.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);
   const std::unique_ptr<viewer::ViewServer> view = view_of(scene, settings, simulation, should_stop, watch);
   SessionSink sink(bus, recorder, run_watch, view.get());
   std::vector<std::unique_ptr<devices::LcmGlove>> gloves;
-  std::vector<haptics::HandOfServer> hands;
+  std::vector<haptics::HandInLoop<devices::GloveDevice>> hands;
   std::vector<std::int64_t> numbers;
   for (std::size_t h = 0; h < settings.hands.size(); ++h) {
     const std::int64_t device = settings.hands[h].device;
@@ -244,23 +279,9 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   realtime::SteadyClock clock;
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
-  std::set<std::string> told;
-  std::vector<LinkWatch> links;
-  for (const std::int64_t number : numbers)
-    links.emplace_back(number);
   const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
   if (!missing.empty()) watch({.sentences = {missing}});
-  while (!server.is_done() && !server.has_failed() && !should_stop()) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
-    RunWatch::News news = run_watch.news(server.late_ticks());
-    for (std::size_t h = 0; h < gloves.size(); ++h) {
-      for (std::string& sentence : links[h].news(gloves[h]->statistics()))
-        if (told.insert(sentence).second) news.events.push_back(std::move(sentence));  // it may concern all gloves
-    }
-    for (std::string& sentence : recorders.write_flight(DumpSignal::take()))
-      news.events.push_back(std::move(sentence));
-    watch({.ticks = server.ticks(), .sentences = std::move(news.events), .status = std::move(news.status)});
-  }
+  watch_until_end(server, gloves, numbers, run_watch, recorders, should_stop, watch);
   server.stop();
   watch({.ticks = server.ticks(), .sentences = run_watch.news(server.late_ticks()).events});
   watch({.ticks = server.ticks(), .sentences = recorders.finish(server.has_failed())});

@@ -1,4 +1,4 @@
-// The output of a session: text, JSON, and a page.
+// The output of a session: text and a page.
 
 #include <algorithm>
 #include <array>
@@ -17,6 +17,7 @@
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/say.h>
+#include <glissade/apps/text.h>
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/session_view.h>
@@ -30,10 +31,6 @@ std::string formatted(const char* format, Values... values) {
   std::array<char, 200> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, values...);
   return buffer.data();
-}
-
-std::string hash_text(std::uint64_t hash) {
-  return formatted("%016llx", static_cast<unsigned long long>(hash));
 }
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
@@ -81,10 +78,6 @@ void add_collision_rows(const Session& session, Rows& rows) {
   rows.emplace_back("  pairs at hull planes", stage_text(sum.separating_planes, frames));
   rows.emplace_back("  pairs at DOP-trees", stage_text(sum.exact, frames));
   rows.emplace_back("  pairs that met or parted", stage_text(sum.result, frames));
-}
-
-std::string name_of_state(std::size_t number) {
-  return std::string(devices::name_of(devices::part_state_from_number(static_cast<std::int32_t>(number))));
 }
 
 std::string states_text(const PartSummary& part, std::int64_t samples) {
@@ -167,7 +160,7 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
   if (session.real_time) add_real_time_rows(*session.real_time, rows);
   if (!verbose) return rows;
   add_collision_rows(session, rows);
-  rows.emplace_back("hash", hash_text(summary.hash));
+  rows.emplace_back("hash", hexadecimal(summary.hash));
   return rows;
 }
 
@@ -224,113 +217,7 @@ void add_clearance(const HapticScene& scene, const SessionRecorder& samples, Rep
   report.plots.push_back(std::move(plot));
 }
 
-nlohmann::json to_json(const PartSummary& part, double tick_s) {
-  nlohmann::json states;
-  for (std::size_t i = 0; i < part.state_ticks.size(); ++i)
-    states[name_of_state(i)] = tick_s * static_cast<double>(part.state_ticks[i]);
-  return {{"name", part.name},
-          {"colliding_poses", part.colliding_poses},
-          {"contact_fraction", part.contact_fraction},
-          {"contacts_max", part.contacts_max},
-          {"state_s", states},
-          {"state_changes", part.state_changes}};
-}
-
-nlohmann::json to_json(const HandSummary& hand, double tick_s) {
-  nlohmann::json limits;
-  for (std::size_t i = 0; i < hand.limited_ticks.size(); ++i)
-    limits[std::string(devices::kLimitReasons[i].name)] = tick_s * static_cast<double>(hand.limited_ticks[i]);
-  return {{"device", hand.device},
-          {"grasps", hand.grasps},
-          {"holding_s", tick_s * static_cast<double>(hand.holding_ticks)},
-          {"missed_grasp", hand.missed_grasp.empty() ? nlohmann::json() : nlohmann::json(hand.missed_grasp)},
-          {"has_fingers", hand.has_fingers},
-          {"colliding_postures", hand.colliding_postures},
-          {"joint_torque_max_Nm", hand.joint_torque_max_Nm},
-          {"force_max_N", hand.force_max_N},
-          {"force_step_max_N", hand.force_step_max_N},
-          {"limited_s", limits},
-          {"lagging_s", tick_s * static_cast<double>(hand.lagging_ticks)},
-          {"unsolved_s", tick_s * static_cast<double>(hand.unsolved_ticks)}};
-}
-
 }  // namespace
-
-nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
-  const auto stage = [&](const collision::StageReport& sum) {
-    const auto each = [&](auto value) -> nlohmann::json {
-      if (session.collision_frames == 0) return nullptr;
-      return static_cast<double>(value) / static_cast<double>(session.collision_frames);
-    };
-    return nlohmann::json{{"in", each(sum.in)}, {"out", each(sum.out)}, {"us", each(in_microseconds(sum.time))}};
-  };
-  const double tick_s = tick_seconds(session);
-  nlohmann::json parts = nlohmann::json::array();
-  for (const PartSummary& part : summary.parts)
-    parts.push_back(to_json(part, tick_s));
-  nlohmann::json hands = nlohmann::json::array();
-  for (const HandSummary& hand : summary.hands)
-    hands.push_back(to_json(hand, tick_s));
-  nlohmann::json json = {{"ticks", summary.ticks},
-                         {"objects", session.objects},
-                         {"calls", session.calls.calls},
-                         {"calls_ended_early", session.calls.ended_early},
-                         {"unsettled_friction", session.calls.unsettled_friction},
-                         {"collision_frames", session.collision_frames},
-                         {"collision_stages",
-                          {{"queue", stage(session.collision.queue)},
-                           {"neighbor_finding", stage(session.collision.neighbor_finding)},
-                           {"separating_planes", stage(session.collision.separating_planes)},
-                           {"exact", stage(session.collision.exact)},
-                           {"result", stage(session.collision.result)}}},
-                         {"late_ticks", 0},
-                         {"colliding_poses", summary.colliding_poses()},
-                         {"parts", parts},
-                         {"hands", hands},
-                         {"checked_poses", summary.checked},
-                         {"goal_reached", nullptr},
-                         {"goal_distance_m", nullptr},
-                         {"tick_us_p50", nullptr},
-                         {"tick_us_p99", nullptr},
-                         {"lateness_us_p50", nullptr},
-                         {"lateness_us_p99", nullptr},
-                         {"lateness_us_max", nullptr},
-                         {"bare_lateness_us_p50", nullptr},
-                         {"bare_lateness_us_p99", nullptr},
-                         {"bare_lateness_us_max", nullptr},
-                         {"page_faults", nullptr},
-                         {"has_fifo_scheduling", nullptr},
-                         {"has_locked_memory", nullptr},
-                         {"simulation_us_p50", nullptr},
-                         {"simulation_us_p99", nullptr},
-                         {"contact_set_age_us_p50", nullptr},
-                         {"contact_set_age_us_p99", nullptr},
-                         {"hash", hash_text(summary.hash)}};
-  if (summary.goal_reached) {
-    json["goal_reached"] = *summary.goal_reached;
-    json["goal_distance_m"] = summary.goal_distance_m;
-  }
-  if (session.real_time) {
-    const haptics::HapticServerStatistics& server = session.real_time->server;
-    json["late_ticks"] = server.haptic.late_ticks;
-    json["page_faults"] = server.page_faults;
-    json["has_fifo_scheduling"] = server.scheduling.is_fifo;
-    json["has_locked_memory"] = server.scheduling.has_locked_memory;
-    json["tick_us_p50"] = in_microseconds(server.haptic.duration.quantile(0.5));
-    json["tick_us_p99"] = in_microseconds(server.haptic.duration.quantile(0.99));
-    for (const auto& [name, lateness] : {std::pair("lateness_us", &server.haptic.lateness),
-                                         std::pair("bare_lateness_us", &session.real_time->bare_timer.lateness)}) {
-      json[std::string(name) + "_p50"] = in_microseconds(lateness->quantile(0.5));
-      json[std::string(name) + "_p99"] = in_microseconds(lateness->quantile(0.99));
-      json[std::string(name) + "_max"] = in_microseconds(lateness->max());
-    }
-    json["simulation_us_p50"] = in_microseconds(server.simulation.quantile(0.5));
-    json["simulation_us_p99"] = in_microseconds(server.simulation.quantile(0.99));
-    json["contact_set_age_us_p50"] = in_microseconds(server.contact_set_age.quantile(0.5));
-    json["contact_set_age_us_p99"] = in_microseconds(server.contact_set_age.quantile(0.99));
-  }
-  return json;
-}
 
 std::string to_text(const SessionSummary& summary, const Session& session, bool verbose) {
   std::string text;

@@ -50,7 +50,7 @@ geometry::Displacement JamCheck::allowed(const Isometry3d& X_WV, const geometry:
   rows_.clear();
   for (const contact::Contact& contact : contacts_)
     rows_.push_back({contact.n_W, contact.p_W - p_Wref, std::min(0.0, hold - contact.gap)});
-  const contact::Projection projection = solver_.project(wanted, stiffness, rows_);
+  const contact::Projection<1> projection = solver_.project(wanted, stiffness, rows_);
   return projection.status == contact::ProjectionStatus::kSolved ? projection.displacement() : geometry::Displacement{};
 }
 

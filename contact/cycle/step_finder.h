@@ -4,20 +4,15 @@
 /// and certified free of collisions. Finding it may take several calls of the simulation.
 
 #include <array>
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
 
-#include <glissade/contact/projection.h>
-#include <glissade/contact/spring.h>
-
 #include "certificate/path_certificate.h"
 #include "cycle/contact_rows.h"
 #include "cycle/simulated_parts.h"
-#include "cycle/turned_rows.h"
-#include "solver/friction.h"
+#include "cycle/step_projection.h"
 #include "work/work_budget.h"
 
 namespace glissade::contact {
@@ -40,72 +35,55 @@ class StepFinder {
   /// Returns the motion bounds (metres) of the displacements that another step would aim at.
   std::array<double, kMaxParts> find_forces(WorkBudget& budget);
   /// Whether `find` has to go on.
-  bool is_under_way() const { return stage_ != Stage::kDone; }
+  bool is_under_way() const { return is_under_way_; }
   /// Gives the step up on which `find` had to go on.
-  void give_up() { stage_ = Stage::kDone; }
+  void give_up() { is_under_way_ = false; }
 
   ContactRows& rows() { return rows_; }
   std::span<const RowForce> forces() const { return forces_; }
-  /// Number of projections whose friction is not in balance: the solver came to its limit of work first.
-  std::int64_t unsettled_friction() const { return unsettled_friction_; }
+  /// As `StepProjection::unsettled_friction`.
+  std::int64_t unsettled_friction() const { return projection_.unsettled_friction(); }
   /// Smallest distance (metres) of two bodies at their present poses that is certain in spite of rounding.
   double certain_distance() const { return certificate_.certain_distance(); }
 
  private:
-  /// Where the step comes from that waits for its certificate.
-  enum class Stage { kProjecting, kHalving, kDone };
-
   void begin(WorkBudget& budget);
-  void aim();
   void begin_trial(WorkBudget& budget);
   void try_projection(WorkBudget& budget);
-  void conclude(bool is_certified, WorkBudget& budget);
+  void note_first();
+  bool falls_back_to_first();
   void try_half(WorkBudget& budget);
   void end_trial(WorkBudget& budget);
   void note_arrivals();
   bool gains_energy();
-  bool project(const Displacements& wanted, WorkBudget& budget);
-  bool is_worth_another(const Displacements& displacements) const;
-  bool project_again();
-  void set_forces(const CoupledProjection& projection);
+  bool project(const Displacements& towards, WorkBudget& budget);
   Displacements shorten();
-  bool is_too_narrow(const CoupledProjection& projection) const;
-  std::array<bool, kMaxParts> parts_without_room(const Displacements& wanted);
-  void solve_friction(const Displacements& wanted, WorkBudget& budget);
-  bool slipped(const CoupledRow& row) const;
   void keep_covered(Displacements& displacements);
   void begin_certificate(const Displacements& displacements, WorkBudget& budget);
   std::array<bool, kMaxParts> parts_that_fail() const;
 
   SimulatedParts& shared_;
   ContactRows rows_;
-  TurnedRows turned_rows_;
+  StepProjection projection_;
   PathCertificate certificate_;
   double reach_ = 0.0;  // metres
 
-  std::vector<CouplingStiffness> grips_;  // infinite for a released part
-  ProjectionSolver solver_;
-  FrictionSolver friction_solver_;
-  std::vector<double> coefficients_;  // of friction, one for each row
-  std::int64_t unsettled_friction_ = 0;
-  std::vector<CoupledRow> rows_of_group_;
-  Displacements projected_;
   std::vector<RowForce> forces_;
-  std::vector<RowForce> first_forces_;     // of the projection on contacts alone
   std::vector<PairToCertify> to_certify_;  // pairs that the step at hand may reach
   double damping_ = 0.0;                   // Levenberg–Marquardt
 
-  Stage stage_ = Stage::kDone;
-  int trial_ = 0;  // number of dampings so far
-  int projections_ = 0;
-  int halvings_ = 0;
+  // The step that waits for its certificate, and how it came about: a call that ends early leaves all of it as it is.
+  bool is_under_way_ = false;
+  int trial_ = 0;        // number of dampings so far
+  int projections_ = 0;  // of this trial
+  int halvings_ = 0;     // of its last projection
   double most_energy_ = 0.0;
-  Displacements wanted_;
   Displacements damped_;
-  Step step_;                    // its certificate is under way
-  Step first_;                   // on the contacts alone
-  bool is_first_order_ = false;  // the second projection that it needs has no solution
-  bool is_covered_ = false;      // by the candidates: otherwise no certificate is possible
+  Step step_;
+  Step first_;                          // on the contacts alone
+  std::vector<RowForce> first_forces_;  // of that one
+  bool is_first_order_ = false;         // the second projection that it needs has no solution
+  bool is_covered_ = false;             // by the candidates: otherwise no certificate is possible
 };
 
 }  // namespace glissade::contact

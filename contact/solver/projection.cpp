@@ -63,8 +63,8 @@ CoupledProjection widened(const auto& projection) {
 ProjectionSolver::ProjectionSolver(std::size_t rows) : normals_(kMaxActive * rows), bounds_(rows), slacks_(rows) {}
 
 template <std::size_t kParts, typename Row>
-ProjectionOf<kParts> ProjectionSolver::solve(std::span<const geometry::Displacement> wanted,
-                                             std::span<const CouplingStiffness> stiffness, std::span<const Row> rows) {
+Projection<kParts> ProjectionSolver::solve(std::span<const geometry::Displacement> wanted,
+                                           std::span<const CouplingStiffness> stiffness, std::span<const Row> rows) {
   constexpr auto kDof = static_cast<int>(kMaxActive * kParts);
   if (bounds_.size() < rows.size()) {
     bounds_.resize(rows.size());
@@ -100,7 +100,7 @@ ProjectionOf<kParts> ProjectionSolver::solve(std::span<const geometry::Displacem
 
   DualActiveSet<kDof> set(y, {{normals_.data(), count, kDof}, {bounds_.data(), count}}, tolerance,
                           {slacks_.data(), count});
-  ProjectionOf<kParts> result;
+  Projection<kParts> result;
   result.status = set.solve();
   if (result.status != ProjectionStatus::kSolved) return result;
   for (std::size_t part = 0; part < kParts; ++part) {
@@ -116,8 +116,8 @@ ProjectionOf<kParts> ProjectionSolver::solve(std::span<const geometry::Displacem
   return result;
 }
 
-Projection ProjectionSolver::project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
-                                     std::span<const ConstraintRow> rows) {
+Projection<1> ProjectionSolver::project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
+                                        std::span<const ConstraintRow> rows) {
   return solve<1, ConstraintRow>({&wanted, 1}, {&stiffness, 1}, rows);
 }
 

@@ -32,7 +32,7 @@ std::vector<std::size_t> joints_of_wrist(const FingerHand& hand) {
 FingersOfHand::FingersOfHand(const FingerHand& hand, const devices::DeviceDescriptor& device,
                              std::chrono::nanoseconds period)
     : hand_(checked_wrist(hand)),
-      forces_(hand.limits, device, period),
+      forces_(hand, device, period),
       load_(device, joints_of_wrist(hand), period),
       device_delay_(device.delay) {
   set_link_delay(std::chrono::nanoseconds(0));
@@ -48,7 +48,7 @@ void FingersOfHand::move_palm(const devices::GloveState& state, double dt) noexc
   X_WP_ = state.X_WH;
   for (const WristJoint& joint : hand_.wrist) {
     const std::size_t j = joint.angle;
-    const double wanted = std::clamp(state.joint_angles[j], hand_.limits.lower[j], hand_.limits.upper[j]);
+    const double wanted = std::clamp(state.joint_angles[j], hand_.lower[j], hand_.upper[j]);
     const double step = is_found_ ? std::clamp(wanted - angles_[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt)
                                   : wanted - angles_[j];
     angles_[j] += step;

@@ -83,7 +83,7 @@ std::optional<geometry::Displacement> new_motion(const geometry::Displacement& w
                                                  const contact::CouplingStiffness& stiffness,
                                                  std::span<const contact::ConstraintRow> rows,
                                                  contact::ProjectionSolver& solver) {
-  const contact::Projection projection = solver.project(wanted, stiffness, rows);
+  const contact::Projection<1> projection = solver.project(wanted, stiffness, rows);
   if (projection.status != contact::ProjectionStatus::kSolved) return std::nullopt;
   return projection.displacement();
 }

@@ -243,7 +243,7 @@ void PaperSliding::report_contacts() {
     reported.margin = margin();
     result_.contacts.push_back(reported);
   }
-  const contact::Projection shares = solver_.project(error(), stiffness_, contact_rows(0.0));
+  const contact::Projection<1> shares = solver_.project(error(), stiffness_, contact_rows(0.0));
   result_.pushing = shares.status == contact::ProjectionStatus::kSolved ? shares.active_count : 0;
   for (int i = 0; i < result_.pushing; ++i) {
     const auto slot = static_cast<std::size_t>(i);

@@ -20,6 +20,8 @@ def copy_sources(target):
                 copy = target / file.relative_to(REPOSITORY)
                 copy.parent.mkdir(parents=True, exist_ok=True)
                 shutil.copyfile(file, copy)
+    (target / "docs").mkdir()
+    shutil.copyfile(REPOSITORY / "docs" / "types.md", target / "docs" / "types.md")
 
 
 def run_check(root):
@@ -154,6 +156,25 @@ class CheckArchitecture(unittest.TestCase):
     def test_contact_force_that_reaches_collision(self):
         self.include("haptics/loop/contact_force.h", "<glissade/collision/dop_tree.h>")
         self.expect("haptics/loop/contact_force.h", "contact force must not reach collision/")
+
+    def test_engine_that_reaches_devices(self):
+        self.include("contact/sliding.h", "<glissade/devices/glove_device.h>")
+        self.expect("contact/sliding.h", "engine must not reach devices", "contact/sliding.h -> devices/glove_device.h")
+
+    def test_file_that_is_too_long(self):
+        self.write("contact/one.cpp", "\n" * 401)
+        self.expect("contact/one.cpp", "401 lines")
+
+    def test_function_that_is_too_long(self):
+        body = "".join(f"  if (n == {i}) return {i};\n" for i in range(59))
+        self.write("contact/one.cpp", f"namespace a {{\n\nint f(int n) {{\n{body}}}\n\nint g(int n) {{\n{body}  return 0;\n}}\n\n}}\n")
+        self.expect("contact/one.cpp", "62 lines")
+
+    def test_type_without_a_row(self):
+        path = self.root / "contact/sliding.h"
+        self.write("contact/sliding.h", path.read_text() + "struct Unheard {\n};\n")
+        self.expect("docs/types.md", "no row for Unheard")
+        self.expect("contact/CMakeLists.txt", "36 types")
 
     def test_folder_of_tests_without_a_component(self):
         self.write("tests/nothing/one_test.cpp", "")

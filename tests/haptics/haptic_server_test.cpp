@@ -275,7 +275,7 @@ TEST_F(Server, RefusesToSpinForMoreThanHalfOfThePeriod) {
 }
 
 TEST_F(Server, RunsForATimeOrUntilItIsDone) {
-  HapticServer(std::vector<HandOfServer>{{device_.get()}}, *sliding_, {.ticks = 20}).run_for();
+  HapticServer(std::vector<HandInLoop<devices::GloveDevice>>{{device_.get()}}, *sliding_, {.ticks = 20}).run_for();
   expect_faded(*device_);
   HapticServer server({{device_.get()}}, *sliding_);
   server.run_for(std::chrono::milliseconds(50));

@@ -25,7 +25,8 @@ TEST(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) 
   EXPECT_THROW(run_offline({{&glove}}, sliding, 1, {}), std::invalid_argument);
   EXPECT_THROW(run_offline({{nullptr}}, sliding, 1, ignore), std::invalid_argument);
   EXPECT_THROW(run_offline({}, sliding, 1, ignore), std::invalid_argument);
-  EXPECT_THROW(run_offline(std::vector<HandOffline>(5, {&glove}), sliding, 1, ignore), std::invalid_argument);
+  EXPECT_THROW(run_offline(std::vector<HandInLoop<devices::SimulatedGlove>>(5, {&glove}), sliding, 1, ignore),
+               std::invalid_argument);
   EXPECT_THROW(run_offline({{&glove, 1}}, sliding, 1, ignore), std::invalid_argument) << "a script moves it";
   EXPECT_THROW(run_offline({{&glove, 2}}, sliding, 1, ignore), std::invalid_argument) << "there is none";
 }

@@ -17,7 +17,7 @@ ConstraintRow floor_at(double height, const Eigen::Vector3d& r = Eigen::Vector3d
 TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
   const geometry::Displacement wanted{{1e-3, 2e-3, -3e-3}, {0.01, 0.02, 0.03}};
   const std::vector<ConstraintRow> rows{floor_at(4e-3)};
-  const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
+  const Projection<1> result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
   EXPECT_EQ(result.status, ProjectionStatus::kSolved);
   EXPECT_EQ(result.active_count, 0);
   EXPECT_TRUE(result.displacement().stacked().isApprox(wanted.stacked(), 1e-14));
@@ -26,7 +26,7 @@ TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
 TEST(Projection, SlidesAlongAFloorAndReportsTheForceThatTakes) {
   const geometry::Displacement wanted{{1e-3, 0.0, -3e-3}, Eigen::Vector3d::Zero()};
   const std::vector<ConstraintRow> rows{floor_at(1e-3)};
-  const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
+  const Projection<1> result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
   EXPECT_TRUE(result.displacement().v.isApprox(Eigen::Vector3d(1e-3, 0.0, -1e-3), 1e-12));
   ASSERT_EQ(result.active_count, 1);
   EXPECT_NEAR(result.force[0], 1000.0 * 2e-3, 1e-9);  // k_t times the 2 mm that were refused
@@ -37,7 +37,7 @@ TEST(Projection, TurnsAboutAnEccentricContactAsTheStiffnessesAllow) {
   const double a = 0.05;
   const double d = 1e-3;
   const std::vector<ConstraintRow> rows{floor_at(0.0, {0.0, a, 0.0})};  // rotation about x lifts the contact point
-  const Projection result =
+  const Projection<1> result =
       ProjectionSolver().project({{0.0, 0.0, -d}, Eigen::Vector3d::Zero()}, kProjectedStiffness, rows);
   const double force = d / (1.0 / kProjectedStiffness.translational + a * a / kProjectedStiffness.rotational);
   ASSERT_EQ(result.active_count, 1);
@@ -68,7 +68,7 @@ TEST(Projection, MeetsTheOptimalityConditionsOnRandomProgrammes) {
       if (i % 5 == 4) rows.push_back(rows.back());  // repeated rows are common in practice
     }
     const geometry::Displacement wanted{1e-3 * random_vector(), 0.02 * random_vector()};
-    const Projection result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
+    const Projection<1> result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
     ASSERT_EQ(result.status, ProjectionStatus::kSolved) << "trial " << trial;
     for (const ConstraintRow& row : rows) {
       ASSERT_GE(row.velocity(result.displacement()), row.bound - 1e-11) << "trial " << trial;

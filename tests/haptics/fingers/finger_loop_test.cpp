@@ -115,7 +115,7 @@ devices::SimulatedGlove carrier() {
 
 std::vector<HapticState> run(GraspSimulation& simulation, std::vector<devices::SimulatedGlove>& gloves, int ticks,
                              LoopObserver* observer = nullptr) {
-  std::vector<HandOffline> hands;
+  std::vector<HandInLoop<devices::SimulatedGlove>> hands;
   for (devices::SimulatedGlove& glove : gloves)
     hands.push_back({.device = &glove});
   std::vector<HapticState> states;

@@ -59,7 +59,7 @@ class PressedPalm : public testing::Test {
     FingerRows().tell(hand_.clasp, contacts, 0, answer);
     JointValues angles{};
     std::copy(target_.values.begin(), target_.values.end(), angles.begin());
-    FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
+    FingerForces forces(finger_hand(*hand_model()), devices::simulated_glove_descriptor());
     return forces.update(angles, answer);
   }
 

@@ -20,7 +20,7 @@ std::array<double, kFingers> forces_with(const std::vector<FingerRow>& rows, dou
   hands::JointValues targets{};
   targets[kIndexPip] = pip_rad;
   targets[kIndexDip] = dip_rad;
-  return FingertipForces(finger_hand(grasping::make_hand()).limits, devices::simulated_glove_descriptor())
+  return FingertipForces(finger_hand(grasping::make_hand()), devices::simulated_glove_descriptor())
       .update(targets, hand);
 }
 

@@ -64,7 +64,7 @@ TEST(LostHand, ThatStartsInsideGivesNoTorqueUntilItIsFree) {
 }
 
 TEST(LostHand, ThatTheCartMovesIntoSomethingGivesNoTorqueUntilItIsFree) {
-  FingerForces forces(finger_hand(*hand_model()).limits, devices::simulated_glove_descriptor());
+  FingerForces forces(finger_hand(*hand_model()), devices::simulated_glove_descriptor());
   HandAnswer answer;
   FingerRows rows;
   ClaspedHand hand(geometry::make_sphere(kBall_m, 2000), before_the_palm());

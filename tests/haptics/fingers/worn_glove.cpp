@@ -33,7 +33,7 @@ WornGlove::WornGlove(const geometry::TriangleMesh& object, const Eigen::Isometry
                      std::vector<std::chrono::nanoseconds> grip_changes)
     : hand(object, X_WB),
       glove_(std::move(script_X_WR), wearer(fist, std::move(grip_changes))),
-      forces_(haptics::finger_hand(grasping::make_hand()).limits, glove_.descriptor()),
+      forces_(haptics::finger_hand(grasping::make_hand()), glove_.descriptor()),
       envelope_(glove_.descriptor()) {}
 
 void WornGlove::run(int milliseconds) {

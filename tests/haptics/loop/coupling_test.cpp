@@ -26,21 +26,21 @@ TEST(Coupling, MovingAWrenchToAnotherPointAddsTheForcesLever) {
 
 TEST(Coupling, DampsOnlyAlongTheSpring) {
   const contact::Wrench spring{Vector3d(0.0, 0.0, 2.0), Vector3d::Zero()};
-  const contact::Wrench sliding = damper_wrench(kDamping, spring, {Vector3d(0.3, 0.0, 0.0), Vector3d::Zero()});
+  const contact::Wrench sliding = damper_wrench(kDamping, spring, Vector3d(0.3, 0.0, 0.0), Vector3d::Zero());
   EXPECT_EQ(sliding.f, Vector3d::Zero());
-  const contact::Wrench pressing = damper_wrench(kDamping, spring, {Vector3d(0.3, 0.0, -0.1), Vector3d::Zero()});
+  const contact::Wrench pressing = damper_wrench(kDamping, spring, Vector3d(0.3, 0.0, -0.1), Vector3d::Zero());
   EXPECT_TRUE(pressing.f.isApprox(Vector3d(0.0, 0.0, 0.5)));
 }
 
 TEST(Coupling, DampingNeverPullsTowardsAContact) {
   const contact::Wrench spring{Vector3d(0.0, 0.0, 0.2), Vector3d(0.0, 0.001, 0.0)};
-  const contact::Wrench leaving = damper_wrench(kDamping, spring, {Vector3d(0.0, 0.0, 10.0), Vector3d(0.0, 10.0, 0.0)});
+  const contact::Wrench leaving = damper_wrench(kDamping, spring, Vector3d(0.0, 0.0, 10.0), Vector3d(0.0, 10.0, 0.0));
   EXPECT_TRUE((spring.f + leaving.f).isZero(1e-15));
   EXPECT_TRUE((spring.t + leaving.t).isZero(1e-15));
 }
 
 TEST(Coupling, WithoutASpringThereIsNoDamping) {
-  const contact::Wrench damping = damper_wrench(kDamping, {}, {Vector3d(1.0, 2.0, 3.0), Vector3d(1.0, 2.0, 3.0)});
+  const contact::Wrench damping = damper_wrench(kDamping, {}, Vector3d(1.0, 2.0, 3.0), Vector3d(1.0, 2.0, 3.0));
   EXPECT_EQ(damping.f, Vector3d::Zero());
   EXPECT_EQ(damping.t, Vector3d::Zero());
 }

@@ -29,8 +29,8 @@ using std::chrono::nanoseconds;
 using test_support::expect_bad_input;
 
 /// Both joints of a finger.
-const FingerLimits kRange = [] {
-  FingerLimits range;
+const FingerHand kRange = [] {
+  FingerHand range;
   range.lower[0] = range.lower[1] = -1.0;
   range.upper[0] = range.upper[1] = 1.0;
   return range;
@@ -187,7 +187,7 @@ TEST(FingerForces, AskNothingOfAJointThatTheDeviceDoesNotHave) {
 }
 
 TEST(FingerForces, RefuseLimitsThatAreNoRange) {
-  FingerLimits limits = kRange;
+  FingerHand limits = kRange;
   limits.lower[3] = 0.2;
   expect_bad_input([&] { FingerForces(limits, devices::simulated_glove_descriptor()); }, {"joint 3", "no range"});
 }

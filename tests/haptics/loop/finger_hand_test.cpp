@@ -27,8 +27,8 @@ constexpr std::size_t kWristJoint = 20;
 /// Joints that reach from -1 to 1 rad, and a wrist 0.1 m before the tracker that turns about y.
 FingerHand hand_with_wrist() {
   FingerHand hand;
-  hand.limits.lower.fill(-1.0);
-  hand.limits.upper.fill(1.0);
+  hand.lower.fill(-1.0);
+  hand.upper.fill(1.0);
   hand.wrist = {{kWristJoint, Isometry3d(Eigen::Translation3d(0.1, 0.0, 0.0)), Vector3d::UnitY()}};
   return hand;
 }

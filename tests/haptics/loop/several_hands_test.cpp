@@ -53,8 +53,8 @@ class SeveralHands : public ::testing::Test {
  protected:
   using Events = std::function<void(std::int64_t tick, HoldRequests& hands)>;
 
-  std::vector<HapticState> run(const std::vector<HandOffline>& hands, grasping::GraspSimulation& sliding,
-                               std::int64_t ticks, const Events& events = {},
+  std::vector<HapticState> run(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands,
+                               grasping::GraspSimulation& sliding, std::int64_t ticks, const Events& events = {},
                                const std::vector<contact::Obstacle>& obstacles = {}) {
     std::vector<HapticState> states;
     run_offline(hands, sliding, ticks,
