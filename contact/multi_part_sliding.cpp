@@ -377,7 +377,7 @@ std::int32_t MultiPartSliding::part_of_body(std::int32_t body) const {
   return cycle_->shared().scene.leader(body);
 }
 
-geometry::Displacement MultiPartSliding::error(std::size_t part) const {
+geometry::Displacement MultiPartSliding::lag(std::size_t part) const {
   return cycle_->part(part).lag();
 }
 

@@ -113,7 +113,7 @@ class MultiPartSliding {
   bool is_scripted(std::size_t part) const;
   /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the part
   /// is at its target and while the part is released.
-  geometry::Displacement error(std::size_t part) const;
+  geometry::Displacement lag(std::size_t part) const;
 
   const SearchStatistics& search_statistics() const;
   const CallStatistics& call_statistics() const;

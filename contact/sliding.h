@@ -77,7 +77,7 @@ class Sliding {
   double margin() const { return sliding_.margin(0); }
   /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the
   /// part is at its target and while the part is released.
-  geometry::Displacement error() const { return sliding_.error(0); }
+  geometry::Displacement lag() const { return sliding_.lag(0); }
   /// Visible poses of the scripted parts, i.e. of the parts that a script moves instead of the hand, in the order given
   /// to the constructor.
   std::span<const Eigen::Isometry3d> scripted_X_WB() const { return scripted_X_WB_; }

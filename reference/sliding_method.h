@@ -46,7 +46,7 @@ class SlidingSimulation {
   /// "moving>bisecting>classifying>new-direction>criterion>done". Empty for methods without a state machine.
   virtual std::string trace() const { return {}; }
 
-  geometry::Displacement error() const;
+  geometry::Displacement lag() const;
 };
 
 /// The methods of sliding contact.

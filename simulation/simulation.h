@@ -49,7 +49,7 @@ class Simulation {
   const contact::SlidingResult& result(std::size_t part) const { return engine_.parts().result(part); }
   const Eigen::Isometry3d& X_WV(std::size_t part) const { return result(part).X_WV; }
   /// From the visible part to its target.
-  geometry::Displacement lag(std::size_t part) const { return engine_.parts().error(part); }
+  geometry::Displacement lag(std::size_t part) const { return engine_.parts().lag(part); }
   /// What the contacts exert on the hands that hold the part, about its compliance point, in world axes. Exactly zero
   /// while nothing pushes; at rest, the spring of the coupling.
   contact::Wrench wrench(std::size_t part) const;

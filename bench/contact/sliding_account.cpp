@@ -36,7 +36,7 @@ PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingSce
   PacedRun paced{.stiffness = sliding.stiffness(),
                  .margin = sliding.margin(),
                  .X_WV = {sliding.result().X_WV},
-                 .error = {sliding.error()}};
+                 .error = {sliding.lag()}};
   Clock::time_point due = Clock::now();
   for (int tick = 1; tick <= ticks; ++tick) {
     const Isometry3d X_WG = scene.ghost(tick);
@@ -46,7 +46,7 @@ PacedRun run_paced(const SlidingSubject& subject, const test_support::SlidingSce
     const Clock::time_point end = Clock::now();
     if (sliding.result().pushing > 0) paced.times.record(end - begin);
     paced.X_WV.push_back(sliding.result().X_WV);
-    paced.error.push_back(sliding.error());
+    paced.error.push_back(sliding.lag());
     due = std::max(end, due + std::chrono::milliseconds(1));
   }
   paced.queries_per_tick = static_cast<double>(run.sliding->queries()) / ticks;

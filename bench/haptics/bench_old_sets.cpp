@@ -120,7 +120,7 @@ contact::MultiPartSliding held(const SlidingScene& scene, const contact::Sliding
 }
 
 Vector3d force_of(const contact::MultiPartSliding& sliding) {
-  return contact::spring_wrench(sliding.stiffness(0), sliding.error(0)).f;
+  return contact::spring_wrench(sliding.stiffness(0), sliding.lag(0)).f;
 }
 
 Answers answers_of(const SlidingScene& scene, int ticks) {

@@ -110,7 +110,7 @@ void PaperSliding::want() {
 PaperEvent PaperSliding::work(PaperState state) {
   switch (state) {
     case PaperState::kMoving:
-      return go(error());
+      return go(lag());
     case PaperState::kBisecting:
       return bisect();
     case PaperState::kClassifying:
@@ -192,15 +192,15 @@ PaperEvent PaperSliding::choose_direction() {
   moved_in_cycle_ = 0.0;
   if (stalled_cycles_ == 0) {
     const std::optional<geometry::Displacement> with_room =
-        new_motion(error(), stiffness_, contact_rows(kRoom * bracket_), solver_);
+        new_motion(lag(), stiffness_, contact_rows(kRoom * bracket_), solver_);
     direction_ = with_room
                      ? *with_room
-                     : new_motion(error(), stiffness_, contact_rows(0.0), solver_).value_or(geometry::Displacement{});
+                     : new_motion(lag(), stiffness_, contact_rows(0.0), solver_).value_or(geometry::Displacement{});
   } else {
     normals_.clear();
     for (const PaperContact& contact : contacts_)
       normals_.push_back(contact.n_W);
-    direction_ = {new_translation(error().v, normals_).v, Eigen::Vector3d::Zero()};
+    direction_ = {new_translation(lag().v, normals_).v, Eigen::Vector3d::Zero()};
   }
   return PaperEvent::kWorked;
 }
@@ -243,7 +243,7 @@ void PaperSliding::report_contacts() {
     reported.margin = margin();
     result_.contacts.push_back(reported);
   }
-  const contact::Projection<1> shares = solver_.project(error(), stiffness_, contact_rows(0.0));
+  const contact::Projection<1> shares = solver_.project(lag(), stiffness_, contact_rows(0.0));
   result_.pushing = shares.status == contact::ProjectionStatus::kSolved ? shares.active_count : 0;
   for (int i = 0; i < result_.pushing; ++i) {
     const auto slot = static_cast<std::size_t>(i);

@@ -32,7 +32,7 @@ class ProjectionSliding final : public SlidingSimulation {
 
 }  // namespace
 
-geometry::Displacement SlidingSimulation::error() const {
+geometry::Displacement SlidingSimulation::lag() const {
   return geometry::displacement_between(result().X_WV, result().X_WT, part().p_Vref());
 }
 

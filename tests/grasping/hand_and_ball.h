@@ -75,7 +75,7 @@ class HandAndBall {
 
   Eigen::Isometry3d X_WV() const { return simulation.parts().result(0).X_WV; }
   double force() const {
-    const geometry::Displacement lag = simulation.parts().error(0);
+    const geometry::Displacement lag = simulation.parts().lag(0);
     return simulation.parts().stiffness(0).translational * lag.v.norm();
   }
 

@@ -99,7 +99,7 @@ contact::Wrench sum_of_contacts(const Simulation& sliding) {
 /// Wrench of the spring on the part, K ξ*.
 template <typename Simulation>
 contact::Wrench spring_on_part(const Simulation& sliding) {
-  const contact::Wrench on_hand = contact::spring_wrench(sliding.stiffness(), sliding.error());
+  const contact::Wrench on_hand = contact::spring_wrench(sliding.stiffness(), sliding.lag());
   return {-on_hand.f, -on_hand.t};
 }
 

@@ -74,7 +74,7 @@ TEST(CompliancePoint, IsThatOfTheHoldUntilTheHandLetsGo) {
 
 /// The wrench of the coupling on the part about the world's origin.
 Wrench coupling_of(const MultiPartSliding& sliding) {
-  const Wrench about_reference = spring_wrench(sliding.stiffness(0), sliding.error(0));
+  const Wrench about_reference = spring_wrench(sliding.stiffness(0), sliding.lag(0));
   return about_point(about_reference, sliding.result(0).X_WV * sliding.p_Vref(0), Vector3d::Zero());
 }
 

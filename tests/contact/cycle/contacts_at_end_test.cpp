@@ -39,7 +39,7 @@ TEST(SlidingOverFacets, IsFeltByTheContactsWhereThePartIs) {
     for (const Contact& contact : result.contacts)
       force += contact.force * contact.n_W;
     const double stiffness = sliding.stiffness().translational;
-    const Vector3d spring = stiffness * sliding.error().v;
+    const Vector3d spring = stiffness * sliding.lag().v;
     snapping += (force + spring).norm() > 2.0 * stiffness * kLeft ? 1 : 0;
   }
   EXPECT_LE(snapping, 3) << "past a corner, no faster than the slew allows";

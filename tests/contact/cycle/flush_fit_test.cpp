@@ -74,7 +74,7 @@ class FlushFit {
     return forces;
   }
   /// Newtons, of the part on the hand.
-  Vector3d spring_W() const { return spring_wrench(sliding_.stiffness(), sliding_.error()).f; }
+  Vector3d spring_W() const { return spring_wrench(sliding_.stiffness(), sliding_.lag()).f; }
   /// Where the part is, seen from its place in the assembly.
   Vector3d moved_A() const { return X_WA_.inverse() * X_WV().translation(); }
 

@@ -68,7 +68,7 @@ TEST(RubberBand, DoesNotTurnThePartInFreeSpace) {
   EXPECT_EQ(sliding.result().state, SlidingState::kFree);
   EXPECT_EQ(sliding.result().X_WV.linear(), tilted_at(0.0, 0.1).linear());
   EXPECT_LT((sliding.result().X_WV.translation() - Vector3d(0.05, 0.0, 0.12)).norm(), 1e-15);
-  EXPECT_EQ(sliding.error().v, Vector3d::Zero());
+  EXPECT_EQ(sliding.lag().v, Vector3d::Zero());
 }
 
 TEST(RubberBand, LaysATiltedPartFlatAndGivesNoTorque) {
@@ -78,8 +78,8 @@ TEST(RubberBand, LaysATiltedPartFlatAndGivesNoTorque) {
   lead(sliding, tilted_at(0.0, kRest - 2e-3, kTilt), 50);
   EXPECT_LT(angle_of(sliding.result().X_WV), 1e-3) << "the spring would hold it up";
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), kRest + sliding.margin(), 2.0 * sliding.margin());
-  EXPECT_EQ(sliding.error().w, Vector3d::Zero());
-  EXPECT_NEAR(sliding.error().v.z(), -2e-3, 4.0 * sliding.margin());
+  EXPECT_EQ(sliding.lag().w, Vector3d::Zero());
+  EXPECT_NEAR(sliding.lag().v.z(), -2e-3, 4.0 * sliding.margin());
 }
 
 TEST(RubberBandSpring, HoldsATiltedPartUpByItsTorque) {
@@ -87,14 +87,14 @@ TEST(RubberBandSpring, HoldsATiltedPartUpByItsTorque) {
   Sliding sliding = box_above_floor(Metaphor::kRubberBandSpring, tilted_at(0.0, 0.06, kTilt));
   lead(sliding, tilted_at(0.0, kRest, kTilt), 200);
   EXPECT_GT(angle_of(sliding.result().X_WV), 0.02);
-  EXPECT_GT(sliding.error().w.norm(), 0.02);
+  EXPECT_GT(sliding.lag().w.norm(), 0.02);
 }
 
 TEST(Incremental, ForgetsWhatTheFloorRefuses) {
   Sliding sliding = box_above_floor(Metaphor::kIncremental, tilted_at(0.0, kRest + 1e-3));
   lead(sliding, tilted_at(0.0, kRest - 3e-3), 40);  // 1 mm to the floor, 3 mm refused
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), kRest, 2.0 * sliding.margin());
-  EXPECT_NEAR(sliding.error().v.z(), -1e-4, 2.0 * sliding.margin()) << "that of the last call alone";
+  EXPECT_NEAR(sliding.lag().v.z(), -1e-4, 2.0 * sliding.margin()) << "that of the last call alone";
   const double resting = sliding.result().X_WV.translation().z();
   lead(sliding, tilted_at(0.02, kRest - 2e-3), 40);  // back by 1 mm, and aside
   EXPECT_EQ(sliding.result().state, SlidingState::kFree) << "it lifts off at once";
@@ -125,7 +125,7 @@ TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPul
   int calls = 0;
   while (calls < 400 && sliding.result().X_WV.matrix() != X_WG.matrix()) {
     ASSERT_EQ(sliding.advance(X_WG).state, SlidingState::kFree);
-    ASSERT_EQ(sliding.error().v, Vector3d::Zero()) << "call " << calls;
+    ASSERT_EQ(sliding.lag().v, Vector3d::Zero()) << "call " << calls;
     const geometry::Displacement d =
         geometry::displacement_between(X_WV, sliding.result().X_WV, sliding.part().p_Vref());
     ASSERT_LE(geometry::motion_bound(d, sliding.part().radius()), kClosing_m * (1.0 + 1e-9)) << "call " << calls;
@@ -143,8 +143,8 @@ TEST(Metaphor, WithoutSpeedLimitCatchesUpWithAGhostThatTurnedRoundAndGoesOn) {
     sliding.advance(tilted_at(2e-3 * i, 0.2, 3.0));
     ASSERT_GE(sliding.result().reach, 4.0 * sliding.margin()) << "call " << i;
   }
-  EXPECT_LT(sliding.error().v.norm(), 1e-9);
-  EXPECT_LT(sliding.error().w.norm(), 1e-9);
+  EXPECT_LT(sliding.lag().v.norm(), 1e-9);
+  EXPECT_LT(sliding.lag().w.norm(), 1e-9);
 }
 
 TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
@@ -155,16 +155,16 @@ TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
   Vector3d error = Vector3d::Zero();
   for (int i = 0; i < 120; ++i) {
     sliding.advance(X_WG);
-    ASSERT_LE((sliding.error().v - error).norm(), kSlew_m * (1.0 + 1e-9)) << "call " << i;
-    error = sliding.error().v;
+    ASSERT_LE((sliding.lag().v - error).norm(), kSlew_m * (1.0 + 1e-9)) << "call " << i;
+    error = sliding.lag().v;
   }
   EXPECT_NEAR(error.z(), -9e-3, 2.0 * sliding.margin()) << "in the end as hard as any";
   sliding.grasp(tilted_at(0.0, kRest - 5e-3));
-  EXPECT_EQ(sliding.error().v, error) << "another hold of a part that is held keeps what pulls";
+  EXPECT_EQ(sliding.lag().v, error) << "another hold of a part that is held keeps what pulls";
   sliding.advance(tilted_at(0.0, kRest - 5e-3));
-  EXPECT_NEAR(sliding.error().v.z(), error.z() + kClosing_m, 1e-9);
+  EXPECT_NEAR(sliding.lag().v.z(), error.z() + kClosing_m, 1e-9);
   sliding.release();
-  EXPECT_EQ(sliding.error().v, Vector3d::Zero());
+  EXPECT_EQ(sliding.lag().v, Vector3d::Zero());
 }
 
 TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {
@@ -175,7 +175,7 @@ TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {
   for (int i = 0; i < 1000; ++i) {
     sliding.release();
     ASSERT_EQ(sliding.result().X_WV.matrix(), X_WV.matrix()) << i;
-    ASSERT_EQ(sliding.error().v, Vector3d::Zero()) << i;
+    ASSERT_EQ(sliding.lag().v, Vector3d::Zero()) << i;
     sliding.grasp(X_WV);
     // Held where it is, the part is free to go, though it lies on the floor.
     ASSERT_EQ(sliding.advance(X_WV).state, SlidingState::kFree) << i;

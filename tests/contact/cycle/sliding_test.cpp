@@ -209,14 +209,14 @@ double greatest_catch_up(Metaphor metaphor, double milliseconds = 1.0) {
   lead(sliding, pose({0.0, 0.0, 0.015}), 200, [](const SlidingResult&) {});
   double greatest = 0.0;
   Isometry3d X_WG = sliding.result().X_WG;
-  geometry::Displacement lag = sliding.error();
+  geometry::Displacement lag = sliding.lag();
   lead(
       sliding, pose({0.17, 0.0, 0.015}), 500,
       [&](const SlidingResult& result) {
         const Vector3d& p_Vref = sliding.part().p_Vref();
         const double radius = sliding.part().radius();
         const double ghost = geometry::motion_bound(geometry::displacement_between(X_WG, result.X_WG, p_Vref), radius);
-        const geometry::Displacement now = sliding.error();
+        const geometry::Displacement now = sliding.lag();
         greatest = std::max(greatest, (now.v - lag.v).norm() + radius * (now.w - lag.w).norm() - ghost);
         X_WG = result.X_WG;
         lag = now;

@@ -241,7 +241,7 @@ TEST_F(BoxOnPlate, TheForcesOfTheListAreTheSpringsForceAndTorque) {
     torque += contact.force * (contact.p_W - p_Wref).cross(contact.n_W);
   }
   // They balance the spring between the part and what the metaphor wants.
-  const geometry::Displacement error = sliding.error();
+  const geometry::Displacement error = sliding.lag();
   EXPECT_LT((force + sliding.stiffness().translational * error.v).norm(), 1e-6 * force.norm());
   EXPECT_LT((torque + sliding.stiffness().rotational * error.w).norm(), 1e-6 * sliding.part().radius() * force.norm());
 }

@@ -242,7 +242,7 @@ TEST(ClosedForm, ASphereOnASphereIsAsFarAsItsFacetsLet) {
     EXPECT_LE(distance, smooth + kRestPosition_m);
     EXPECT_GE(distance, smooth - sagittas);
     // A smaller part among smaller obstacles has more room, so its optimum is not worse.
-    const double length = test_support::length_in(sliding.stiffness(), sliding.error());
+    const double length = test_support::length_in(sliding.stiffness(), sliding.lag());
     EXPECT_LE(0.5 * length * length, energy(depth + kRestPosition_m));
     EXPECT_GE(0.5 * length * length, energy(depth - sagittas));
     EXPECT_LE(test_support::imbalance(sliding), kRestBalance);

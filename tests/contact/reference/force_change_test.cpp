@@ -58,7 +58,7 @@ TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
   Vector3d ghost = seat + Vector3d::Constant(1e-3);
   Sliding sliding({{std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(corner))}}, box(12),
                   Isometry3d(Eigen::Translation3d(ghost)), {.metaphor = Metaphor::kRubberBandSpring});
-  geometry::Displacement before = sliding.error();
+  geometry::Displacement before = sliding.lag();
   constexpr int kMilliseconds = test_support::affordable(3000);
   int in_contact = 0;
   for (int i = 0; i < kMilliseconds; ++i) {
@@ -67,7 +67,7 @@ TEST(ForceChange, InAConvexCornerTheForceChangesNoMoreThanTheGhostMoves) {
     ghost += step;
     const SlidingResult& result = sliding.advance(Isometry3d(Eigen::Translation3d(ghost)));
     in_contact += result.pushing > 0 ? 1 : 0;
-    const geometry::Displacement now = sliding.error();
+    const geometry::Displacement now = sliding.lag();
     const double change = norm_in(sliding.stiffness(), difference(now, before));
     const double ghost_change = norm_in(sliding.stiffness(), {step, Vector3d::Zero()});
     // A cycle that moves less than a twentieth of the margin, or before one that would, is the last of its call.
@@ -83,13 +83,13 @@ TEST(ForceChange, WhereABoxSnapsOffARimTheForceFallsNoFasterThanTheSlewAllows) {
       std::make_shared<ContactBody>(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({0.2, 0.2}, 100)));
   Sliding sliding({{plate}}, box(12), Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.021)));
   Vector3d ghost(0.0, 0.0, 0.021);
-  geometry::Displacement before = sliding.error();
+  geometry::Displacement before = sliding.lag();
   double greatest_lag = 0.0;
   for (int i = 0; i < 1200; ++i) {
     const Vector3d step = i < 100 ? Vector3d(0.0, 0.0, -6e-5) : Vector3d(2e-4, 0.0, 0.0);
     ghost += step;
     sliding.advance(Isometry3d(Eigen::Translation3d(ghost)));
-    const geometry::Displacement now = sliding.error();
+    const geometry::Displacement now = sliding.lag();
     greatest_lag = std::max(greatest_lag, now.v.norm());
     ASSERT_LE((now.v - before.v).norm(), kSlew_m + step.norm() + 1e-12) << "after " << i << " ms";
     before = now;

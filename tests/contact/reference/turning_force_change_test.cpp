@@ -48,11 +48,11 @@ class RandomMotion {
       const Isometry3d X_to = pose(X_middle.translation() + random_.point(reach),
                                    turn(random_.uniform(-largest_turn, largest_turn), random_.direction()) *
                                        Eigen::Quaterniond(X_middle.linear()));
-      geometry::Displacement stretch = sliding_.error();
+      geometry::Displacement stretch = sliding_.lag();
       Isometry3d X_WG = sliding_.result().X_WG;
       test_support::lead(sliding_, X_to, 40, [&](const SlidingResult& result) {
         look(stretch, X_WG, result);
-        stretch = sliding_.error();
+        stretch = sliding_.lag();
         X_WG = result.X_WG;
       });
     }
@@ -67,7 +67,7 @@ class RandomMotion {
             const SlidingResult& result) {
     const CouplingStiffness& K = sliding_.stiffness();
     const double radius = sliding_.part().radius();
-    const geometry::Displacement stretch = sliding_.error();
+    const geometry::Displacement stretch = sliding_.lag();
     const geometry::Displacement change{stretch.v - stretch_previous.v, stretch.w - stretch_previous.w};
     const geometry::Displacement ghost =
         geometry::displacement_between(X_WG_previous, result.X_WG, sliding_.part().p_Vref());

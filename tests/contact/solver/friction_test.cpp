@@ -59,7 +59,7 @@ class PressedBox : public ::testing::Test {
       sliding_->advance(sliding_->result().X_WG);
   }
   double x_of_part() const { return sliding_->result().X_WV.translation().x(); }
-  Vector3d force_of_spring() const { return -spring_wrench(sliding_->stiffness(), sliding_->error()).f; }
+  Vector3d force_of_spring() const { return -spring_wrench(sliding_->stiffness(), sliding_->lag()).f; }
 
   std::unique_ptr<Sliding> sliding_;
 };

@@ -65,7 +65,7 @@ double force_error(double contacts_ahead_ms) {
     const ContactSet& old = sets[static_cast<std::size_t>(std::max(0, i - 6))];
     const double felt = force.update(old, milliseconds(5), X_WG, 1e-3).f.norm();
     greatest =
-        std::max(greatest, std::abs(felt - contact::spring_wrench(sliding.stiffness(0), sliding.error(0)).f.norm()));
+        std::max(greatest, std::abs(felt - contact::spring_wrench(sliding.stiffness(0), sliding.lag(0)).f.norm()));
   }
   return greatest;
 }

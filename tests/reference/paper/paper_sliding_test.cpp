@@ -73,7 +73,7 @@ TEST(PaperSliding, InFreeSpaceFollowsTheGhostToTheBit) {
          EXPECT_EQ(result.X_WV.matrix(), result.X_WG.matrix());
          EXPECT_EQ(result.state, contact::SlidingState::kFree);
          EXPECT_EQ(states_of(sliding), (std::vector{kMoving, kDone}));
-         const contact::Wrench wrench = contact::spring_wrench(sliding.stiffness(), sliding.error());
+         const contact::Wrench wrench = contact::spring_wrench(sliding.stiffness(), sliding.lag());
          EXPECT_EQ(wrench.f, Vector3d::Zero());
          EXPECT_EQ(wrench.t, Vector3d::Zero());
        });
@@ -226,7 +226,7 @@ TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIs
   PaperSliding band = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.1}, contact::Metaphor::kRubberBand);
   lead(band, pose({0.05, 0.0, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitY()))), 50);
   EXPECT_EQ(band.result().X_WV.linear(), Eigen::Matrix3d::Identity());
-  EXPECT_EQ(band.error().v, Vector3d::Zero());
+  EXPECT_EQ(band.lag().v, Vector3d::Zero());
 
   PaperSliding incremental =
       box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.021}, contact::Metaphor::kIncremental);
@@ -242,7 +242,7 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
   EXPECT_EQ(sliding.advance(pose({0.05, 0.0, 0.03})).state, contact::SlidingState::kReleased);
   EXPECT_EQ(sliding.result().X_WV.matrix(), pose({0.0, 0.0, 0.03}).matrix());
   sliding.grasp(pose({0.01, 0.0, 0.03}));
-  EXPECT_EQ(sliding.error().v, Vector3d::Zero()) << "taking hold does not pull";
+  EXPECT_EQ(sliding.lag().v, Vector3d::Zero()) << "taking hold does not pull";
   EXPECT_EQ(sliding.advance(pose({0.01, 0.0, 0.03})).state, contact::SlidingState::kCatchingUp);
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2e-3, 1e-12);
 }

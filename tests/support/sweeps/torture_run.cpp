@@ -238,7 +238,7 @@ class TortureRun {
   }
 
   void check_force(double ghost_motion) {
-    const Vector3d force = spring_wrench(sliding_.stiffness(), sliding_.error()).f;
+    const Vector3d force = spring_wrench(sliding_.stiffness(), sliding_.lag()).f;
     if (!force.allFinite()) ++counts_.not_finite;
     const double allowed = sliding_.stiffness().translational * (kSlew_m * milliseconds_ + ghost_motion);
     if (metaphor_ == Metaphor::kForceFeedback)
@@ -249,7 +249,7 @@ class TortureRun {
   // Checks whether a part that stands still with its target elsewhere had to. With friction it may rest anywhere.
   void check_progress(double moved, double ghost_motion) {
     if (options_.rules.friction.is_on()) return;
-    const geometry::Displacement error = sliding_.error();
+    const geometry::Displacement error = sliding_.lag();
     const double away = length(error);
     if (!(away > kFarFromGhost_m || (ghost_motion > kGhostMoves_m && away > kGhostMoves_m))) return;
     ++counts_.wanted;
