@@ -3,11 +3,11 @@
 /// Exact queries between two DOP-trees: whether the triangle soups intersect, which triangle pairs intersect or are
 /// near, and how far apart the soups are. A guaranteed bound: a translation that separates them.
 ///
-/// Each query takes the pose X_AB of tree B in the frame of tree A. Exact means: X_AB is applied to the vertices of B
-/// in double precision; for the resulting vertices of B and the vertices of A, the answer is the one of real
-/// arithmetic. With a tolerance or distance above 0, the distances of triangles that are compared with it are accurate
-/// to a few units in the last place of the largest coordinate. Touching counts as intersecting. Only triangles of
-/// positive area take part.
+/// Each query takes the pose X_AB of tree B in the frame of tree A. The query transforms the vertices of B by X_AB in
+/// double precision. The answer is that of exact real arithmetic on these transformed vertices and the vertices of A.
+/// With a tolerance or distance above 0, the distances of triangles that are compared with it are accurate to a few
+/// units in the last place of the largest coordinate. Touching counts as intersecting. Only triangles of positive area
+/// take part.
 ///
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
 /// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: a reflection,

@@ -65,9 +65,8 @@ class MultiPartSliding {
   /// As `Sliding::grasp` and `Sliding::release`; `part` is its number, below `part_count`. A released part stands still
   /// like an obstacle. Under force feedback, `grasp` does not move the target at once to the new ghost: if the part was
   /// released, the target starts at the pose of the part; if the part was already held, the target stays where it was.
-  /// From there the target approaches the ghost by 0.1 mm a millisecond (half of kSlew_m, `coupling.h`), so neither
-  /// part nor force jumps.
-  /// `part` must not be scripted.
+  /// From there the target approaches the ghost by 0.1 mm a millisecond (half of kSlew_m, `spring.h`), so neither part
+  /// nor force jumps. `part` must not be scripted.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   /// The same, and the compliance point is `p_Vref` (metres) instead of the part's own, until the part is released or
   /// taken anew; no farther from it than kFarthestPoint radii. A part already held by force feedback keeps the wrench

@@ -46,7 +46,7 @@ inline constexpr std::size_t kMaxParts = 4;
 /// in, to a twentieth of the margin (docs/sliding.md: to more at some corners), and is apart as soon as there is room.
 enum class OverlapRule : std::uint8_t {
   kRefuse,  ///< the constructor of the simulation (`Sliding`, `MultiPartSliding`) throws
-  /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`coupling.h`) per
+  /// The part moves out of the obstacle on a short straight way without turning, at kSlew_m (`spring.h`) per
   /// millisecond, regardless of the hand, if there is such a way on which it gets no deeper into anything. Otherwise,
   /// and where it is blocked on this way for twenty calls, it follows the hand as far as it gets no deeper in. Once
   /// part and obstacle are apart, the obstacle is like any other. Other obstacles stop the part as usual. If a part

@@ -74,11 +74,12 @@ std::string to_text(const SafeCommand& command);
 /// Franken et al., Bilateral telemanipulation with time delays: a two-layer approach combining passivity and
 /// transparency, 2011, for the shrinking with the energy in a tank and for tanks that pass energy on.
 ///
-/// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that. Where it rises, the
-/// rise counts as if the hand had put it in, in the share of the wanted wrench that was exerted, by at most the largest
-/// power. Where it falls, others ask for energy: the hand gives up what it has beyond 0.1 J, so that no force shrinks
-/// for that; what it does not have is forgotten within some seconds. `SafeCommand::taken` tells what it gave up. After
-/// an interruption and from another sender, supply and taken count anew.
+/// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that. A rise of `supply` counts
+/// as energy that the hand has put in. Only a share of the rise counts: the share of the wanted wrench that was
+/// exerted. The amount is at most the largest power of the device times the time since the last command. Where it
+/// falls, others ask for energy: the hand gives up what it has beyond 0.1 J, so that no force shrinks for that; what it
+/// does not have is forgotten within some seconds. `SafeCommand::taken` tells what it gave up. After an interruption
+/// and from another sender, supply and taken count anew.
 ///
 /// A link that delays every command alike, by up to 150 ms for the whole round trip, does not make commands old: their
 /// age is then counted from the delay that all commands of the last half second or more had (`link_delay`).
@@ -107,8 +108,8 @@ class SafetyEnvelope {
   /// two periods count.
   SafeCommand limit(const GloveCommand& wanted, const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
-  /// Whether the newest state is finite and plausible, and those of the last tenth of a second were. `limit` may follow
-  /// with the same state.
+  /// Whether the newest state is finite and plausible, and those of the last tenth of a second were. `limit` may be
+  /// called afterwards with the same state.
   bool trusts(const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
   /// Emergency stop: from now on the force fades to zero and stays there.

@@ -43,7 +43,7 @@ class SimulatedGloveService {
   /// results of the functions below no longer change.
   void stop();
 
-  /// How much longer than the script the wearer has taken because answers were old. Any thread.
+  /// The extra time that the wearer has needed for the script because answers were old. Any thread.
   std::chrono::nanoseconds waited() const noexcept { return waited_.load(std::memory_order_relaxed); }
 
   /// Greatest norm of all commanded forces, N. Valid after `stop`.

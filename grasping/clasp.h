@@ -55,8 +55,9 @@ struct LinkContact {
 class Clasp {
  public:
   /// `fixed` are bodies that never move; `objects` stand still during a call, and may be placed elsewhere between two.
-  /// The links of the chain may touch each other. Throws std::invalid_argument for a null chain or one without meshes,
-  /// for rules out of range, and as `contact::CertifiedBodies` does. Cost: the trees of the links.
+  /// The links of the chain may touch each other. Throws std::invalid_argument for a null chain, for a chain without
+  /// meshes and for rules out of range. Throws also where the constructor of `contact::CertifiedBodies` does. Cost: the
+  /// trees of the links.
   Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<contact::Obstacle> fixed,
         std::vector<std::shared_ptr<const contact::SlidingPart>> objects, const ClaspRules& rules = {});
   Clasp(Clasp&&) noexcept;

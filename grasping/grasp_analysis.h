@@ -30,7 +30,7 @@ enum class GraspLack : std::uint8_t {
   kSegmentFartherOut  ///< the palm touches, but no middle or outer segment
 };
 
-/// Number of lacks; their values run from 0 to kGraspLacks − 1.
+/// Number of values of `GraspLack`. The values run from 0 to kGraspLacks − 1.
 inline constexpr std::int32_t kGraspLacks = 5;
 
 /// What a grasp needs, such as "a grasp needs a finger as well, or the palm and a middle or outer segment"; empty for

@@ -80,8 +80,8 @@ inline constexpr std::array<std::string_view, kAdroitJoints> kAdroitJointNames{
     "WRJ1", "WRJ0", "FFJ3", "FFJ2", "FFJ1", "FFJ0", "MFJ3", "MFJ2", "MFJ1", "MFJ0", "RFJ3", "RFJ2",
     "RFJ1", "RFJ0", "LFJ4", "LFJ3", "LFJ2", "LFJ1", "LFJ0", "THJ4", "THJ3", "THJ2", "THJ1", "THJ0"};
 
-/// The pose of a right hand for joint angles of the Adroit hand, in rad. The frame Adroit is that of its wrist: z
-/// points to the fingers, x to the thumb's side, y out of the back of the hand.
+/// The pose of a right hand for joint angles of the Adroit hand, in rad. Frame Adroit is the wrist frame of the Adroit
+/// hand. Its z axis points to the fingers, x to the thumb's side, y out of the back of the hand.
 ///
 /// Both hands are built differently, so a pose is matched as follows. Angles of the wrist, MCP, PIP and DIP are taken
 /// over; so are the angles between fingers. `palm_arch` lowers the knuckle of the little finger as far as LFJ4 does.

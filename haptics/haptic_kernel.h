@@ -46,7 +46,8 @@ std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding);
 /// A hand in a device.
 struct KernelHand {
   devices::DeviceDescriptor device;
-  /// Number of the part that it grasps at its first state, if it is closed then. None for a hand with fingers.
+  /// Number of the part that the hand takes at the first state of its glove, if the grip is closed in that state. None
+  /// for a hand with fingers.
   std::optional<std::size_t> part{};
   /// A hand with fingers holds what the simulation decides (`HandAnswer::part`), and its joints feel what stops them.
   /// Without them, the hand holds by its grip.
@@ -113,9 +114,9 @@ class HapticKernel {
   /// is null. `set` is the newest contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A pose
   /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. A hand that opens lets go. A
   /// hand that closes grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
-  /// Opening and closing count once three states have told the same `GloveState::grip`. A contact set with a number
-  /// that is not finite counts as one without contacts, whose parts are where they last were. A hand with fingers
-  /// follows the decisions of the set instead of its grip, and gets torques at its joints.
+  /// The kernel follows an opening or closing after three states in a row with the same `GloveState::grip`. A contact
+  /// set with a number that is not finite counts as one without contacts, whose parts are where they last were. A hand
+  /// with fingers follows the decisions of the set instead of its grip, and gets torques at its joints.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
 

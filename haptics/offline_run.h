@@ -59,8 +59,9 @@ class Replay {
 
   /// Takes the next event of the recording. Repeats the tick of an event of HAPTIC_TICK, and the answer of one of
   /// CONTACT_SET; compares the others on channels of a recording with what the last tick produced. Ignores other
-  /// channels. Returns false if the recording cannot be repeated up to here: `difference` says why. As the simulation
-  /// works ahead, the difference of an event may be found by a later call. Rethrows exceptions of the simulation.
+  /// channels. Returns false if the recording cannot be repeated up to here: `difference` says why. The simulation
+  /// computes the answers in another thread. So `take` may return true for an event that differs from the recording. A
+  /// later call of `take` or `settle` then returns false. Rethrows exceptions of the simulation.
   bool take(devices::LogEvent event);
 
   /// Repeats all that was taken. Returns false, as `take` does, if something differs.

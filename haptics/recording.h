@@ -123,7 +123,7 @@ class BackgroundObserver final : public LoopObserver {
   std::unique_ptr<realtime::PeriodicThread> thread_;
 };
 
-/// The gloves of a recorded loop, and what a recording begins with.
+/// The gloves of a recorded loop, and the first events of the recording.
 struct RecordingHead {
   std::vector<devices::GloveInfo> gloves;  ///< one for each hand
   std::vector<devices::LogEvent> events;   ///< that the application adds

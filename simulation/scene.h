@@ -43,7 +43,7 @@ class SceneMesh {
   std::optional<double> file_scale() const { return file_scale_; }
   /// Triangles without area, which were left out.
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
-  /// What `geometry::import_mesh` warns of, each after the name of the file.
+  /// The warnings of `geometry::import_mesh`. Each begins with the name of the file.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
