@@ -110,8 +110,8 @@ class MultiPartSliding {
   double margin(std::size_t part) const;
   /// Whether a script moves the part.
   bool is_scripted(std::size_t part) const;
-  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the part
-  /// is at its target and while the part is released.
+  /// Displacement from the visible part to its target, by which the coupling's spring is stretched. Exactly zero when
+  /// the part is at its target and while the part is released. (`devices::HapticPartState::lag` goes to the ghost.)
   geometry::Displacement lag(std::size_t part) const;
 
   const SearchStatistics& search_statistics() const;

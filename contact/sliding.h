@@ -75,8 +75,7 @@ class Sliding {
   const CouplingStiffness& stiffness() const { return sliding_.stiffness(0); }
   /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
   double margin() const { return sliding_.margin(0); }
-  /// Displacement from the visible part to its target: the stretch of the coupling's spring. Exactly zero when the
-  /// part is at its target and while the part is released.
+  /// As `MultiPartSliding::lag`.
   geometry::Displacement lag() const { return sliding_.lag(0); }
   /// Visible poses of the scripted parts, i.e. of the parts that a script moves instead of the hand, in the order given
   /// to the constructor.

@@ -6,7 +6,8 @@
 namespace glissade::contact {
 
 CouplingStiffness stiffness_of_part(double radius, double translational) {
-  return {translational, translational * radius * radius};
+  const double usual = kUsualStiffness_N_per_m * radius * radius;
+  return {translational, translational / kUsualStiffness_N_per_m * usual};
 }
 
 void validate(const CouplingStiffness& stiffness, const std::string& part_name) {

@@ -63,9 +63,7 @@ GraspLack Grasp::lack() const {
 }
 
 Grasp grasp_of(const hands::VisibleHand& hand) {
-  return {.type = static_cast<GraspType>(hand.grasp),
-          .form = hand.form,
-          .segments = TouchingSegments::from_bits(hand.touching)};
+  return {.type = hand.grasp, .form = hand.form, .segments = TouchingSegments::from_bits(hand.touching)};
 }
 
 std::string reason_of(const Grasp& grasp) {

@@ -130,6 +130,8 @@ class GraspSimulation::Life {
     parts_.release(p);
   }
 
+  bool is_led(std::size_t p) const { return is_led_[p] != 0; }
+
   const HoldDecision& decision(std::size_t h) const { return decisions_[h]; }
 
  private:
@@ -364,6 +366,11 @@ const contact::MultiPartSliding& GraspSimulation::parts() const {
 void GraspSimulation::take_part(std::size_t part, const Eigen::Isometry3d& X_WG) {
   GLISSADE_ASSERT(part < part_count());
   life_->take_part(part, X_WG);
+}
+
+bool GraspSimulation::is_led(std::size_t part) const {
+  GLISSADE_ASSERT(part < part_count());
+  return life_->is_led(part);
 }
 
 void GraspSimulation::leave_part(std::size_t part) {

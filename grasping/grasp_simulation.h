@@ -34,7 +34,8 @@ struct GraspRules {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
-/// Where a hand with fingers is to go, and what it holds, where someone else decides that.
+/// Where a hand with fingers is to go, and what is attached to its palm, where someone else decides that. The part
+/// follows a ghost of its own, once that one has taken hold of it (`GraspSimulation::take_part`).
 struct HandTarget {
   std::optional<Posture> posture{};   ///< tracked; none while the tracking is lost
   std::optional<std::size_t> part{};  ///< number of the part in the hand
@@ -77,14 +78,16 @@ class GraspSimulation {
   /// since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
-  /// The same where someone else decides what is held: a pose X_WG for each part, of which that of a loose part counts
-  /// for nothing, and a target for each hand. Not together with the other `advance`.
+  /// The same where someone else decides what is held: a pose X_WG for each part, which counts from `take_part` to
+  /// `leave_part`, and a target for each hand. Hands push the other parts. Not together with the other `advance`.
   void advance(std::span<const Eigen::Isometry3d> X_WG, std::span<const HandTarget> targets, double milliseconds);
   /// Someone takes hold of the part, or anew, with its ghost at X_WG; the last one lets go of it. As
   /// `contact::MultiPartSliding::grasp` and `contact::MultiPartSliding::release`; the compliance point is where the
   /// hands that are to hold it touch it, unless it was chosen.
   void take_part(std::size_t part, const Eigen::Isometry3d& X_WG);
   void leave_part(std::size_t part);
+  /// Whether someone has taken hold of the part and not let go; without hands, also at the start.
+  bool is_led(std::size_t part) const;
 
   /// The user's cart carries the hand to this posture, whatever is in the way. The hand lets go of what it holds, and
   /// waits until a target is free. Its posture stays as it was if this one is not finite or has other values than the

@@ -59,7 +59,8 @@ struct KernelHand {
 template <typename Device>
 struct HandInLoop {
   Device* device = nullptr;
-  /// Of a hand without fingers: number of the part that it grasps at the first state; none: it is told later.
+  /// Of a hand without fingers: number of the part that it grasps at the first state, by default the first part, which
+  /// several hands may hold; none: it is told later, or the hand closes on one.
   std::optional<std::size_t> part = 0;
 };
 

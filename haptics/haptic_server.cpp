@@ -176,6 +176,12 @@ void HapticServer::run_for(std::chrono::nanoseconds longest) {
   if (has_failed()) throw std::runtime_error(failure());
 }
 
+void HapticServer::wait() {
+  if (options_.ticks == 0)
+    throw std::invalid_argument("a haptic server without a number of ticks has no end to wait for");
+  run_for(std::chrono::nanoseconds::max());
+}
+
 void HapticServer::stop() {
   should_end_.store(true, std::memory_order_relaxed);
   haptic_thread_->join();

@@ -49,7 +49,8 @@ struct HapticServerOptions {
   /// an exception from it the force fades, as after one of the simulation, and it is called no more.
   std::function<void(const devices::HapticState&)> sink{};
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
-  realtime::Clock* clock = nullptr;  ///< null: the steady clock of the system; must outlive the server
+  /// Null: the steady clock of the system. Several threads use it; must outlive the server.
+  realtime::Clock* clock = nullptr;
 };
 
 /// Measurements of the server. Complete after `stop`.
@@ -69,8 +70,9 @@ class HapticServer {
   /// Starts both threads. What is passed must outlive the server. A hand grasps its part when the first state of its
   /// device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and are
   /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
-  /// simulation, which should have `contact::real_time_rules`. Throws std::invalid_argument for a null device or a
-  /// period out of bounds, and as the constructors of `HapticKernel` and `realtime::PeriodicThread` do.
+  /// simulation, which should have `contact::real_time_rules`. Throws std::invalid_argument for a null device, a
+  /// period out of bounds and fewer devices than hands of the simulation, and as the constructors of `HapticKernel` and
+  /// `realtime::PeriodicThread` do.
   HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands, grasping::GraspSimulation& simulation,
                HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;
@@ -110,9 +112,12 @@ class HapticServer {
   /// What the system granted to the haptic thread. Any thread.
   const realtime::ThreadScheduling& scheduling() const noexcept { return haptic_thread_->scheduling(); }
 
-  /// Blocks until the server is done or has failed, or for `longest`; then stops. Throws std::runtime_error with the
+  /// Blocks for `longest`, or until the server is done or has failed; then stops. Throws std::runtime_error with the
   /// message of `failure` if it has failed.
-  void run_for(std::chrono::nanoseconds longest = std::chrono::nanoseconds::max());
+  void run_for(std::chrono::nanoseconds longest);
+  /// The same without a limit, for a server with `HapticServerOptions::ticks`, of which a device without states counts
+  /// none. Throws std::invalid_argument for a server that runs until `stop`.
+  void wait();
 
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.
   void stop();

@@ -38,6 +38,14 @@ void check(const Scene& scene, const SceneObject& object) {
     if (((object.X_WB * object.mesh->vertices[i]).array().abs() <= kLargestCoordinate_m).all()) continue;
     throw std::invalid_argument(named(scene, object) + ": vertex " + std::to_string(i) + " lies beyond ±1e9 m");
   }
+  const auto count = static_cast<std::int32_t>(object.mesh->triangles.size());
+  std::int32_t last = -1;
+  for (const std::int32_t triangle : object.giving_way) {
+    if (triangle <= last || triangle >= count)
+      throw std::invalid_argument(named(scene, object) + ": triangle " + std::to_string(triangle) +
+                                  " cannot give way: the numbers must ascend, and lie below " + std::to_string(count));
+    last = triangle;
+  }
   if (!has_area(*object.mesh, object.X_WB)) {
     throw std::invalid_argument(named(scene, object) + ": the mesh has no triangle of positive area");
   }
@@ -157,6 +165,7 @@ SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_n
     const SceneObject& part = scene.find(name);
     if (part.motion)
       throw std::invalid_argument(named(scene, part) + " moves on its own, so it cannot be a part in a hand");
+    if (bodies.part_number(name)) throw std::invalid_argument(named(scene, part) + " is named twice among the parts");
     bodies.parts.push_back({part.name, make_part(scene, part), part.X_WB});
   }
   SharedBodies shared(scene);

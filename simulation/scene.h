@@ -36,7 +36,7 @@ class SceneMesh {
 
   const geometry::TriangleMesh& operator*() const { return *mesh_; }
   const geometry::TriangleMesh* operator->() const { return mesh_.get(); }
-  /// Null only after default construction.
+  /// Null if no mesh was given.
   const std::shared_ptr<const geometry::TriangleMesh>& shared() const { return mesh_; }
 
   // Of a mesh from a file:
@@ -65,8 +65,8 @@ struct SceneObject {
   SceneMesh mesh;  ///< in the object's frame B
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;                 ///< hands can hold it
-  std::optional<SceneMotion> motion{};  ///< then it is not movable, and starts where the script does
-  std::optional<double> margin_m{};     ///< `contact::Obstacle::margin`
+  std::optional<SceneMotion> motion{};  ///< of an object that is not movable; it starts where the script does
+  std::optional<double> margin_m{};     ///< `contact::Obstacle::margin`; without effect on what moves
   /// Where the spring of the coupling acts; default: the centre of the bounding box.
   std::optional<Eigen::Vector3d> compliance_point_B{};
   std::vector<std::int32_t> giving_way{};  ///< triangles that stop nothing, ascending
@@ -80,9 +80,10 @@ struct Scene {
   /// Of the coupling against translation; against rotation, this times the square of the part's radius.
   double stiffness_N_per_m = contact::kUsualStiffness_N_per_m;
   contact::SlidingRules rules{};
-  std::string source = "the scene";  ///< such as the file's name, for messages
-  std::optional<std::string> script_path{};
-  std::optional<Eigen::Isometry3d> X_WGoal{};  ///< of the first part
+  Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity, for grasps
+  std::string source = "the scene";                 ///< such as the file's name, for messages
+  std::optional<Eigen::Isometry3d> X_WGoal{};       ///< of the first part, for checks
+  std::optional<std::string> script_path{};         ///< of the trajectory that belongs to a scene file
 
   /// Throws std::invalid_argument, listing the known names, when there is no object `name`.
   const SceneObject& find(const std::string& name) const;
@@ -97,7 +98,7 @@ struct ScenePart {
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
 };
 
-/// The objects of a scene, prepared for contact: objects of one mesh share their body. Bodies are numbered as in
+/// The objects of a scene, prepared for contact: obstacles of one mesh share their body. Bodies are numbered as in
 /// contacts: obstacles, parts, objects that move on their own.
 struct SceneBodies {
   std::string source;            ///< `Scene::source`
@@ -115,8 +116,9 @@ struct SceneBodies {
 
 /// Takes the objects with these names as the parts, in this order; other movable ones are obstacles. Throws
 /// std::invalid_argument, naming the scene and the object, when there is no such object or no other one, when an object
-/// at its pose has no area or reaches beyond ±1e9 m, when a part moves on its own, when two objects have one name, and
-/// for more than `contact::kMaxParts` parts and objects that move on their own. Cost: the trees of the meshes.
+/// at its pose has no area or reaches beyond ±1e9 m, when a part moves on its own or is named twice, when two objects
+/// have one name, when triangles that give way are not ascending numbers of the mesh, and for more than
+/// `contact::kMaxParts` parts and objects that move on their own. Cost: the trees of the meshes.
 SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names);
 
 /// All parts of a simulation: those that hands can hold, then the objects that move on their own. The stiffness is as

@@ -2,7 +2,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/base/assert.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/simulation/simulation.h>
 
@@ -22,10 +21,15 @@ std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const Scene& s
   return models;
 }
 
-double greatest_margin(const SceneBodies& bodies, double margin) {
+double greatest_margin(const SceneBodies& bodies, const grasping::GraspSimulation& engine, std::size_t part) {
+  double margin = engine.parts().margin(part);
   for (const contact::Obstacle& obstacle : bodies.obstacles)
     margin = std::max(margin, obstacle.margin.value_or(0.0));
-  return margin;
+  return engine.hand_count() > 0 ? std::max(margin, grasping::ClaspRules{}.margin) : margin;
+}
+
+std::string counted(std::size_t count, const std::string& noun) {
+  return std::to_string(count) + " " + noun + (count == 1 ? "" : "s");
 }
 
 std::vector<Eigen::Isometry3d> poses_of(const contact::MultiPartSliding& parts) {
@@ -40,25 +44,36 @@ std::vector<Eigen::Isometry3d> poses_of(const contact::MultiPartSliding& parts) 
 Simulation::Simulation(const Scene& scene)
     : bodies_(movable_bodies(scene)),
       engine_(bodies_.obstacles, held_parts(bodies_, scene.metaphor, scene.stiffness_N_per_m), models_of(scene),
-              {.sliding = scene.rules}) {
+              {.sliding = scene.rules, .up_W = scene.up_W}) {
   for (std::size_t p = 0; p < part_count(); ++p)
-    tracked_.push_back(
-        {contact::ContactTracker(greatest_margin(bodies_, engine_.parts().margin(p))), poses_of(engine_.parts())});
+    tracked_.push_back({contact::ContactTracker(greatest_margin(bodies_, engine_, p)), poses_of(engine_.parts())});
   X_WG_ = poses_of(engine_.parts());
 }
 
 void Simulation::advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
-  GLISSADE_ASSERT(X_WG.size() == part_count() && engine_.hand_count() == 0);
-  std::copy(X_WG.begin(), X_WG.end(), X_WG_.begin());
+  if (engine_.hand_count() > 0)
+    throw std::invalid_argument(bodies_.source + " has hands, which lead the parts: advance it with their postures");
+  if (X_WG.size() != part_count())
+    throw std::invalid_argument(bodies_.source + ": " + counted(X_WG.size(), "pose") + " for " +
+                                counted(part_count(), "part"));
+  for (std::size_t p = 0; p < part_count(); ++p) {
+    X_WG_[p] = X_WG[p];
+    if (!engine_.is_led(p)) engine_.take_part(p, X_WG[p]);
+  }
   engine_.advance(X_WG_, {}, milliseconds);
 }
 
 void Simulation::advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds) {
+  if (hands.size() != engine_.hand_count())
+    throw std::invalid_argument(bodies_.source + ": " + counted(hands.size(), "posture") + " for " +
+                                counted(engine_.hand_count(), "hand"));
   engine_.advance(hands, milliseconds);
 }
 
 const std::string& Simulation::name_of_body(std::int32_t body) const {
   static const std::string kHand = "a hand";
+  static const std::string kNothing = "nothing";
+  if (body < 0) return kNothing;
   const auto number = static_cast<std::size_t>(body);
   return number < bodies_.body_names.size() ? bodies_.body_names[number] : kHand;
 }

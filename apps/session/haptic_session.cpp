@@ -182,6 +182,8 @@ std::int64_t ticks_of(const RunSettings& settings, std::chrono::nanoseconds peri
 void watch_until_end(haptics::HapticServer& server, const std::vector<std::unique_ptr<devices::LcmGlove>>& gloves,
                      const std::vector<std::int64_t>& numbers, RunWatch& run_watch, RunRecorders& recorders,
                      const std::function<bool()>& should_stop, const std::function<void(const RunNews&)>& watch) {
+  const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
+  if (!missing.empty()) watch({.sentences = {missing}});
   std::set<std::string> told;
   std::vector<LinkWatch> links;
   for (const std::int64_t number : numbers)
@@ -279,8 +281,6 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   realtime::SteadyClock clock;
   realtime::PeriodicThread bare_timer(clock, {.period = period, .fifo_priority = realtime::kHapticPriority},
                                       [](const realtime::PeriodicTick&) { return true; });
-  const std::string missing = missing_rights(server.scheduling().is_fifo, server.scheduling().has_locked_memory);
-  if (!missing.empty()) watch({.sentences = {missing}});
   watch_until_end(server, gloves, numbers, run_watch, recorders, should_stop, watch);
   server.stop();
   watch({.ticks = server.ticks(), .sentences = run_watch.news(server.late_ticks()).events});

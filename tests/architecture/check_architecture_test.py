@@ -169,6 +169,8 @@ class CheckArchitecture(unittest.TestCase):
         body = "".join(f"  if (n == {i}) return {i};\n" for i in range(59))
         self.write("contact/one.cpp", f"namespace a {{\n\nint f(int n) {{\n{body}}}\n\nint g(int n) {{\n{body}  return 0;\n}}\n\n}}\n")
         self.expect("contact/one.cpp", "62 lines")
+        self.write("contact/two.cpp", f"namespace a {{\n\nOne::One(int n)\n    : a_{{1}}, b_(n) {{\n{body}}}\n\n}}\n")
+        self.expect("contact/two.cpp", "62 lines")
 
     def test_type_without_a_row(self):
         path = self.root / "contact/sliding.h"

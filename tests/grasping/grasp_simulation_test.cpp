@@ -209,6 +209,35 @@ TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6);
 }
 
+TEST(GraspSimulation, IsSlidingContactToTheBitWithoutHands) {
+  const auto ball = std::make_shared<const contact::SlidingPart>(
+      std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 500)));
+  const auto wall = std::make_shared<const contact::ContactBody>(
+      std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.1, 0.6, 0.6}, 200)));
+  const std::vector<contact::Obstacle> obstacles{{wall, at(0.15, 0.0, 0.0), "the wall"}};
+  const std::vector<contact::HeldPart> parts{{.part_V = ball}, {.part_V = ball, .X_WV_start = at(0.0, 0.1, 0.0)}};
+  contact::MultiPartSliding sliding(obstacles, parts);
+  GraspSimulation simulation(obstacles, parts);
+  for (int ms = 0; ms < 300; ++ms) {
+    const std::array X_WG{at(5e-4 * ms, 2e-4 * ms, 1e-4 * ms), at(-1e-4 * ms, 0.1 - 3e-4 * ms, 0.0)};
+    if (ms == 150) {
+      sliding.release(1);
+      simulation.leave_part(1);
+    }
+    if (ms == 200) {
+      sliding.grasp(1, X_WG[1]);
+      simulation.take_part(1, X_WG[1]);
+    }
+    sliding.advance(X_WG);
+    simulation.advance(X_WG, {}, 1.0);
+    for (std::size_t p = 0; p < 2; ++p) {
+      ASSERT_EQ(simulation.parts().result(p).X_WV.matrix(), sliding.result(p).X_WV.matrix()) << ms;
+      ASSERT_EQ(simulation.parts().lag(p).v, sliding.lag(p).v) << ms;
+    }
+  }
+  EXPECT_GT(sliding.result(0).pushing, 0) << "the test's own premise";
+}
+
 const Isometry3d kBallAtStart = at(0.095, 0.0, -0.056);
 
 /// A call in which the test decides what the hand holds; the ball, if it is held, is to be at X_WG.
@@ -263,6 +292,7 @@ TEST(GraspSimulation, AHandThatIsLostTakesNoHoldThoughOthersDecideSo) {
     closed.values[kWristFlexionValue] = -1.0;
     hand_chain()->clamp(closed.values);
     for (int ms = 0; ms < 3; ++ms) {
+      if (ms == 2) scene.simulation.leave_part(0);
       advance(ms > 0 ? std::optional(closed) : std::nullopt, ms < 2 ? std::optional<std::size_t>(0) : std::nullopt,
               at(0.0, 0.0, -1e-3 * ms) * X_WV);
       EXPECT_FALSE(scene.simulation.held_part(0)) << ms;

@@ -46,6 +46,13 @@ TEST(Simulation, WrenchIsTheSpringOfTheCouplingAtRest) {
   EXPECT_LT(simulation.wrench(0).t.norm(), 1e-6);
 }
 
+TEST(Simulation, GoesOnWhereAnotherHasLetGo) {
+  Simulation simulation(room());
+  simulation.engine().leave_part(0);  // as a server does
+  lead(simulation, at(0.02, 0.0, 0.017));
+  EXPECT_NEAR(simulation.wrench(0).f.z(), 3.0, 0.01);
+}
+
 TEST(Simulation, WrenchIsZeroWhileNothingPushes) {
   Simulation simulation(room());
   for (int ms = 0; ms < 50; ++ms) {
@@ -130,6 +137,9 @@ TEST(Simulation, HandsOfTheSceneTakeHoldOfParts) {
   EXPECT_EQ(simulation.engine().activity(0), hands::HandActivity::kHolding);
   EXPECT_EQ(simulation.name_of_body(simulation.engine().grasp(0).object), "ball");
   EXPECT_EQ(simulation.name_of_body(2), "a hand") << "after table and ball come its segments";
+  EXPECT_EQ(simulation.name_of_body(-1), "nothing");
+  EXPECT_THROW(simulation.advance(Isometry3d::Identity()), std::invalid_argument) << "the hand leads the ball";
+  EXPECT_THROW(simulation.advance(std::array{std::optional(posture), std::optional(posture)}), std::invalid_argument);
 }
 
 TEST(SceneBodies, ObjectsOfOneMeshShareTheirBody) {
@@ -165,7 +175,19 @@ TEST(Scene, ComplaintsNameSceneAndObject) {
   Scene inside = room();
   inside.objects[2].X_WB = at(0.0, 0.0, 0.01);
   EXPECT_NE(complaint(inside).find("'box'"), std::string::npos) << complaint(inside);
-  EXPECT_THROW(room().find("bix"), std::invalid_argument);
+  Scene wrong_triangle = room();
+  wrong_triangle.objects[0].giving_way = {3, 12};
+  EXPECT_EQ(complaint(wrong_triangle),
+            "the scene: object 'floor': triangle 12 cannot give way: the numbers must ascend, and lie below 12");
+  EXPECT_THROW(bodies_of(room(), {"box", "box"}), std::invalid_argument);
+  EXPECT_THROW(Simulation(room()).advance(std::array{Isometry3d::Identity(), Isometry3d::Identity()}),
+               std::invalid_argument);
+  try {
+    (void)room().find("bix");
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "the scene: there is no object 'bix' (known: floor, wall, box)");
+  }
   EXPECT_THROW(SceneMesh("missing.stl", 1.0), std::invalid_argument);
 }
 

@@ -327,7 +327,7 @@ class TortureRun {
   int tick_ = 0;
   std::vector<ConstraintRow> rows_;
   ProjectionSolver solver_;
-  Projection projection_;
+  Projection<1> projection_;
   TortureCounts counts_;
 };
 
