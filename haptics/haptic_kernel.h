@@ -58,10 +58,13 @@ struct KernelHand {
 /// with their fingers.
 template <typename Device>
 struct HandInLoop {
-  Device* device = nullptr;
-  /// Of a hand without fingers: number of the part that it grasps at the first state, by default the first part, which
-  /// several hands may hold; none: it is told later, or the hand closes on one.
-  std::optional<std::size_t> part = 0;
+  /// `part` is that of a hand without fingers: number of the part that it grasps at the first state, by default the
+  /// first part, which several hands may hold; none: it is told later, or the hand closes on one.
+  HandInLoop(Device* device_of_hand, std::optional<std::size_t> part_in_hand = 0)
+      : device(device_of_hand), part(part_in_hand) {}
+
+  Device* device;
+  std::optional<std::size_t> part;
 };
 
 /// A hand that closes takes no part whose bounding sphere is farther from the hand root than this, metres.

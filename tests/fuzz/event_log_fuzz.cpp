@@ -57,7 +57,7 @@ std::string recorded(std::int64_t ticks) {
   haptics::LogRecorder recorder(log_path(), head());
   devices::SimulatedGlove glove = hand();
   grasping::GraspSimulation sliding = parts();
-  haptics::run_offline({{.device = &glove}}, sliding, ticks, [](const devices::HapticState&) {},
+  haptics::run_offline({{&glove}}, sliding, ticks, [](const devices::HapticState&) {},
                        {.before_tick =
                             [](std::int64_t tick, haptics::HoldRequests& requests) {
                               if (tick == 3) requests.release(0);

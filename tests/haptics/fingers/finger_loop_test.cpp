@@ -117,7 +117,7 @@ std::vector<HapticState> run(GraspSimulation& simulation, std::vector<devices::S
                              LoopObserver* observer = nullptr) {
   std::vector<HandInLoop<devices::SimulatedGlove>> hands;
   for (devices::SimulatedGlove& glove : gloves)
-    hands.push_back({.device = &glove});
+    hands.push_back({&glove});
   std::vector<HapticState> states;
   run_offline(hands, simulation, ticks, [&](const HapticState& state) { states.push_back(state); },
               {.observer = observer});

@@ -57,7 +57,7 @@ RecordingHead recorded_head() {
 void record(LoopObserver& observer) {
   devices::SimulatedGlove glove = recorded_hand();
   grasping::GraspSimulation parts = recorded_parts();
-  run_offline({{.device = &glove}}, parts, kRecordedTicks, [](const devices::HapticState&) {},
+  run_offline({{&glove}}, parts, kRecordedTicks, [](const devices::HapticState&) {},
               {.before_tick =
                    [](std::int64_t tick, HoldRequests& hands) {
                      if (tick == 400) hands.release(0);
