@@ -41,7 +41,7 @@ struct HandTarget {
   std::optional<std::size_t> part{};  ///< number of the part in the hand
 };
 
-/// What a hand is to hold, for those who decide by it.
+/// The part that the simulation wants a hand to hold. The decider, such as a haptic thread, follows it.
 struct HoldDecision {
   std::optional<std::size_t> part{};
   std::int64_t number = 0;  ///< increases whenever the simulation decides on another part
@@ -58,7 +58,8 @@ struct HoldDecision {
 /// far as obstacles let it, and at most half again as fast as the fastest segment that pushes it (beside the gap of
 /// contacts, up to 20 µm a call).
 ///
-/// Without hands, whoever calls leads the parts, which are held from the start: this is `contact::MultiPartSliding`.
+/// Without hands, the caller leads the parts, and holds them from the start. The results are those of
+/// `contact::MultiPartSliding`, to the bit.
 ///
 /// Someone else may decide what is held, such as the haptic thread of a server, which has the ghosts of parts in hands:
 /// the second `advance`. A `decision` takes effect once that one has followed it. Then a part is where the tracked

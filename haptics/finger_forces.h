@@ -115,7 +115,7 @@ class FingertipForces {
   FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}
 
   /// N, for each finger the sum of the contacts of its last segment. `targets` are the angles (rad) to which the wearer
-  /// closes the hand. Cost: O(rows · joints), 0.2 ms at most.
+  /// closes the hand. Cost: O(rows · joints), a hundred times.
   std::array<double, kFingers> update(const hands::JointValues& targets, const HandAnswer& hand);
 
  private:

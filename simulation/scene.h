@@ -1,7 +1,7 @@
 #pragma once
 
-/// A scene before anything moves: the objects, which of them hands can hold and which move on their own, the hands, and
-/// the rules of contact.
+/// A scene before anything moves. It has objects, hands and the rules of contact. Hands can hold some objects; scripts
+/// move others.
 
 #include <cstddef>
 #include <cstdint>

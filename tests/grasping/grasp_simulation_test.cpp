@@ -271,7 +271,7 @@ TEST(GraspSimulation, DecidesNothingNewAboutAHandThatIsLost) {
   }
 }
 
-// Whoever decides may follow a decision only when the hand is lost, or when the simulation has lost it before. The
+// A decider may follow a decision late: after the hand is lost, or after the simulation has withdrawn the decision. The
 // hand then begins where its palm is away from the ball, with fingers that would be inside if they held it.
 TEST(GraspSimulation, AHandThatIsLostTakesNoHoldThoughOthersDecideSo) {
   for (const bool follows_late : {false, true}) {

@@ -1,5 +1,6 @@
 // What callers must not do.
 
+#include <memory>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -7,6 +8,7 @@
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/offline_run.h>
 
+#include "expect_bad_input.h"
 #include "held_part.h"
 #include "poses.h"
 
@@ -29,6 +31,14 @@ TEST(HapticsPreconditions, AnOfflineRunNeedsASinkAndHandsThatCanHoldTheirParts) 
                std::invalid_argument);
   EXPECT_THROW(run_offline({{&glove, 1}}, sliding, 1, ignore), std::invalid_argument) << "a script moves it";
   EXPECT_THROW(run_offline({{&glove, 2}}, sliding, 1, ignore), std::invalid_argument) << "there is none";
+}
+
+TEST(HapticsPreconditions, ALoopHasADeviceForEachHandOfItsSimulation) {
+  const auto hand = std::make_shared<const grasping::HandModel>(grasping::make_hand());
+  grasping::GraspSimulation simulation({}, {{.part_V = test_support::cube(0.1)}}, {hand, hand});
+  devices::SimulatedGlove glove(geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}}));
+  test_support::expect_bad_input([&] { run_offline({{&glove}}, simulation, 1, [](const devices::HapticState&) {}); },
+                                 {"2 hands", "devices (1)"});
 }
 
 }  // namespace
