@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -62,6 +64,17 @@ void validate(const DeviceDescriptor& descriptor) {
       refuse(hands::kJointNames[i], "needs a finite lower limit below a finite upper limit");
     }
   }
+}
+
+double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
+              std::chrono::nanoseconds link_delay) noexcept {
+  const double period_s = std::max(std::chrono::duration<double>(period).count(), 1.0 / descriptor.update_rate);
+  return 0.5 * period_s + std::chrono::duration<double>(descriptor.delay + link_delay).count();
+}
+
+double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept {
+  if (told > 0.0) return told / lag;
+  return greatest * (lag_of(descriptor, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0)) / lag);
 }
 
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept {

@@ -128,7 +128,7 @@ struct DeviceDescriptor {
   double rotational_damping = 0.0;    ///< viscous friction against rotation
   double joint_damping = 0.0;         ///< viscous friction of each finger joint
   double friction = 0.0;              ///< Coulomb friction against translation, N
-  double resolution = 0.0;            ///< smallest step of the measured position
+  double resolution = 0.0;            ///< smallest step, or standard deviation, of the measured position
   std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, beyond the period and the link
   /// Largest rates of change: of the force (N/s), the torque and each joint torque (Nm/s). 0: from zero to the maximum
   /// in seven periods of the device, and in two for joint torques (`joint_torque_rate`).
@@ -151,6 +151,17 @@ struct DeviceDescriptor {
 /// upper limit, unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is
 /// negative.
 void validate(const DeviceDescriptor& descriptor);
+
+/// Seconds by which the force of the device lags behind the motion in a loop of this period, behind a link of this
+/// delay: half a period, because it is held that long, and all delays. The period is at least the device's.
+double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
+              std::chrono::nanoseconds link_delay) noexcept;
+
+/// The largest stiffness that is passive with the damping `told` at this lag (seconds), in units that fit each other:
+/// damping by lag. If the descriptor does not tell the damping (0), the device is taken to have just as much as
+/// `greatest`, its largest stiffness, needs to be passive without a link. Source: Colgate and Schenkel, Passivity of a
+/// class of sampled-data systems, 1997.
+double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept;
 
 /// The rate (Nm/s) by which a joint torque changes at most.
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;

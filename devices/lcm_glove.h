@@ -109,8 +109,8 @@ class LcmGlove final : public GloveDevice {
 struct LcmGloveHostOptions {
   std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to all others are rejected
   hands::HandSide side = hands::HandSide::kUnknown;
-  /// A command may answer a state that was measured so many periods of the device ago: the time for the way to the
-  /// server and back. After that, the force fades.
+  /// A command may answer a state that was measured so many periods ago, of the device or, if longer, of a millisecond:
+  /// the time for the way to the server and back. After that, the force fades.
   double patience_periods = 6.0;
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };

@@ -47,10 +47,11 @@ double rate_or_default(double rate, double maximum, const DeviceDescriptor& desc
 
 SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods,
                                nanoseconds period_of_caller)
-    : descriptor_(descriptor), energy_(kStartEnergy_J), refill_(kMostRefill_J) {
+    : descriptor_(descriptor), energy_(kStartEnergy_J), refill_(kMostRefill_J), enough_(kStartEnergy_J) {
   validate(descriptor_);
   const auto rounded = [](std::chrono::duration<double> time) { return std::chrono::duration_cast<nanoseconds>(time); };
-  period_ = std::max(period_of_caller, rounded(std::chrono::duration<double>(1.0 / descriptor_.update_rate)));
+  const nanoseconds of_device = rounded(std::chrono::duration<double>(1.0 / descriptor_.update_rate));
+  period_ = std::max(period_of_caller, of_device);
   patience_ = rounded(patience_periods * std::chrono::duration<double>(period_));
   force_rate_ = rate_or_default(descriptor_.max_force_rate, descriptor_.max_force, descriptor_);
   torque_rate_ = rate_or_default(descriptor_.max_torque_rate, descriptor_.max_torque, descriptor_);
@@ -58,8 +59,14 @@ SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patien
   descriptor_.max_force = std::min(descriptor_.max_force, force_rate_ * longest_fall_s);
   descriptor_.max_torque = std::min(descriptor_.max_torque, torque_rate_ * longest_fall_s);
   joint_torque_rate_ = joint_torque_rate(descriptor_);
+  const double lag = lag_of(descriptor_, period_, nanoseconds(0));
+  stiffness_ = std::min(descriptor_.max_stiffness,
+                        passive_limit(descriptor_, descriptor_.damping, descriptor_.max_stiffness, lag));
+  rotational_stiffness_ =
+      std::min(descriptor_.max_rotational_stiffness,
+               passive_limit(descriptor_, descriptor_.rotational_damping, descriptor_.max_rotational_stiffness, lag));
   given_ = std::make_unique<GivenWrenches>(descriptor_.delay,
-                                           std::max<nanoseconds>(kExertedWithoutCommand, 2 * period_), period_);
+                                           std::max<nanoseconds>(kExertedWithoutCommand, 2 * period_), of_device);
 }
 
 SafetyEnvelope::SafetyEnvelope(SafetyEnvelope&&) noexcept = default;
@@ -95,8 +102,8 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
       torque *= gain_;
   }
   limit_power(forces, reasons);
-  settle_energy(!last_.f.isZero(0.0) || !last_.t.isZero(0.0), now, dt);
-  limit_energy(forces, dt, reasons);
+  settle_energy(forces, now, dt);
+  limit_energy(forces, reasons);
   limit_rates(forces, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};

@@ -62,17 +62,18 @@ std::string to_text(const SafeCommand& command);
 /// A passivity observer counts the work of force and torque on the hand, by the measured motion and the commands
 /// that were given, i.e. after all limits: each from the delay of the device on, until the next acts, for 10 ms at
 /// most. The energy is what the hand has put in and not got back, at most 0.25 m times the largest force, and 0.1 J at
-/// the start for errors of sampling. The wrench is a continuous function of the energy and the velocity: below 0.1 J it
-/// shrinks smoothly, and it is never greater than what is left could bring to zero as a spring does (docs/safety.md has
-/// the derivation). When there is no force any more, the energy is at most 0.1 J. Below 0.1 J it recovers: without a
-/// force by 0.3 W; in a calm contact, in which less than 10 mJ went to and fro in about the last half second, by up to
-/// 0.5 W; while a hand slower than 30 mm/s trembles, by 0.15 W; at once while the force returns from an interruption
-/// and up to half a second after. All this together is at most 1 J and 0.25 W. For a glove that tells the delay of its
-/// link, the envelope at the glove's end does this alone. So no delay and no error of the simulation can feed an
-/// oscillation that gives more than 20 mW and is faster than that, and a hand at rest feels no jump. Joint torques are
-/// not counted. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002, for the observer;
-/// Franken et al., Bilateral telemanipulation with time delays: a two-layer approach combining passivity and
-/// transparency, 2011, for the shrinking with the energy in a tank and for tanks that pass energy on.
+/// the start for errors of sampling. The wrench is a continuous function of the energy and the velocity: it is never
+/// greater than what is left could bring to zero as a spring does that the device renders passively (docs/safety.md has
+/// the derivation). When there is no contact any more, the energy is at most 0.1 J. Below 0.1 J, or what the wanted
+/// wrench needs, it recovers: without a contact by 0.3 W; in a calm one, in which the hand moves by less than 30 mm/s
+/// along the force and less than 10 mJ went to and fro in about the last half second, by up to 0.5 W; while such a hand
+/// trembles, by 0.15 W; at once while the force returns from an interruption and up to half a second after. All this
+/// together is at most 1 J and 0.25 W. Noise within four times the descriptor's `resolution` is no motion. For a glove
+/// that tells the delay of its link, the envelope at the glove's end does this alone. So no delay and no error of the
+/// simulation can feed an oscillation that gives more than 20 mW and is faster than that, and a hand at rest feels no
+/// jump. Joint torques are not counted. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces,
+/// 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a two-layer approach combining
+/// passivity and transparency, 2011, for the shrinking with the energy in a tank and for tanks that pass energy on.
 ///
 /// What moves without the hand may push it. `GloveCommand::supply` tells the energy for that. A rise of `supply` counts
 /// as energy that the hand has put in. Only a share of the rise counts: the share of the wanted wrench that was
@@ -141,14 +142,18 @@ class SafetyEnvelope {
   void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
   void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
   void observe_work(const GloveState& state, std::chrono::nanoseconds begin, std::chrono::nanoseconds end) noexcept;
+  void observe_strokes(const GloveState& state, std::chrono::nanoseconds begin, std::chrono::nanoseconds end,
+                       double seconds) noexcept;
   void book(double change) noexcept;
   void take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept;
   void observe_share(const Forces& exerted) noexcept;
   double most_energy() const noexcept;
-  void settle_energy(bool has_force, std::chrono::nanoseconds now, double dt) noexcept;
+  void settle_energy(const Forces& forces, std::chrono::nanoseconds now, double dt) noexcept;
+  static double spare(const Forces& forces) noexcept;
+  double work_of_fall(const Forces& forces) const noexcept;
   void observe_delay(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept;
   std::chrono::nanoseconds oldest_command() const noexcept;
-  void limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept;
+  void limit_energy(Forces& forces, LimitReasons& reasons) noexcept;
   void limit_rates(Forces& forces, double seconds, LimitReasons& reasons) const noexcept;
 
   DeviceDescriptor descriptor_;
@@ -157,6 +162,8 @@ class SafetyEnvelope {
   double force_rate_;
   double torque_rate_;
   double joint_torque_rate_;
+  double stiffness_;             // N/m, which the device renders passively
+  double rotational_stiffness_;  // Nm/rad
 
   bool is_stopped_ = false;
   double gain_ = 0.0;
@@ -179,7 +186,10 @@ class SafetyEnvelope {
   double went_ = 0.0;
   double balance_ = 0.0;                     // likewise, what came less what went
   std::chrono::nanoseconds moves_until_{0};  // up to then the hand does not count as at rest
-  double energy_scale_ = 1.0;
+  Eigen::Isometry3d X_WH_in_play_ = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d v_in_play_ = Eigen::Vector3d::Zero();  // of that pose, m/s
+  Eigen::Vector3d w_in_play_ = Eigen::Vector3d::Zero();  // rad/s
+  double enough_;                                        // J, with which the wanted wrench is whole
   std::chrono::nanoseconds free_until_{0};  // up to then the force returns, and the refill pays for its work
   std::unique_ptr<GivenWrenches> given_;
 
@@ -188,13 +198,14 @@ class SafetyEnvelope {
   std::chrono::nanoseconds half_second_begin_{0};
 
   bool has_state_ = false;
-  GloveState state_;                                    // newest finite one
-  GloveState booked_;                                   // up to which its work is booked
-  std::chrono::nanoseconds booked_at_{0};               // when it was measured, on the caller's clock
-  std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
-  bool has_caught_up_ = false;                          // the last states jumped after poses that repeated
-  std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
-  std::chrono::nanoseconds late_time_{0};               // the time of that state
+  GloveState state_;                       // newest finite one
+  GloveState booked_;                      // up to which its work is booked
+  std::chrono::nanoseconds booked_at_{0};  // when it was measured, on the caller's clock
+  std::chrono::nanoseconds pose_time_{0};  // since when the pose repeats to the bit
+  bool has_caught_up_ = false;             // the last states jumped after poses that repeated
+  std::chrono::nanoseconds forgives_from_{std::chrono::nanoseconds::min()};  // what such a jump may cost
+  std::chrono::nanoseconds offset_{0};                                       // caller's clock minus glove's clock
+  std::chrono::nanoseconds late_time_{0};                                    // the time of that state
   std::optional<std::chrono::nanoseconds> late_since_;  // when the first state came that was late, as all after it
   std::chrono::nanoseconds distrust_until_{0};
 };

@@ -6,7 +6,6 @@
 #include <glissade/haptics/coupling.h>
 
 #include "loop/lever_limit.h"
-#include "loop/passive_limit.h"
 
 namespace glissade::haptics {
 
@@ -18,10 +17,10 @@ void validate_tick_period(std::chrono::nanoseconds period) {
 
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept {
-  const double lag = lag_of(device, period, delay);
+  const double lag = devices::lag_of(device, period, delay);
   contact::CouplingStiffness limit{
-      passive_limit(device, device.damping, device.max_stiffness, lag),
-      passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag)};
+      devices::passive_limit(device, device.damping, device.max_stiffness, lag),
+      devices::passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag)};
   if (device.friction > 0.0 && device.resolution > 0.0) {
     limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
   }
@@ -41,13 +40,14 @@ Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const c
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever) noexcept {
   constexpr double kDampingTime_s = 5e-3;
-  const double lag = lag_of(device, period, delay);
+  const double lag = devices::lag_of(device, period, delay);
   // What the device's own damping leaves.
   const auto damping = [lag](double stiffness, double limit) {
     return std::clamp((limit - stiffness) * lag, 0.0, kDampingTime_s * stiffness);
   };
-  const LeverLimit limit{passive_limit(device, device.damping, device.max_stiffness, lag),
-                         passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag), lever};
+  const LeverLimit limit{
+      devices::passive_limit(device, device.damping, device.max_stiffness, lag),
+      devices::passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag), lever};
   const contact::CouplingStiffness passive = passive_stiffness(device, period, delay);
   Coupling coupling;
   contact::CouplingStiffness& K = coupling.stiffness;

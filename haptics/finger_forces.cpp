@@ -10,7 +10,6 @@
 #include <glissade/haptics/finger_forces.h>
 
 #include "loop/contact_force.h"
-#include "loop/passive_limit.h"
 
 namespace glissade::haptics {
 
@@ -47,8 +46,9 @@ FingerHand finger_hand(const grasping::HandModel& hand) {
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept {
   const double wanted = device.max_joint_torque / kFullTorque_rad;
-  return std::min({wanted, devices::joint_torque_rate(device) / kFastestFinger_rad_per_s,
-                   passive_limit(device, device.joint_damping, wanted, lag_of(device, period, link_delay))});
+  return std::min(
+      {wanted, devices::joint_torque_rate(device) / kFastestFinger_rad_per_s,
+       devices::passive_limit(device, device.joint_damping, wanted, devices::lag_of(device, period, link_delay))});
 }
 
 FingerForces::FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,

@@ -22,6 +22,7 @@ constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
 constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
 constexpr double kMostDebt_J = 0.3;
 constexpr double kLongestRepeat_s = 0.1;
+constexpr nanoseconds kForgivesAgain = std::chrono::seconds(30);
 constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
@@ -55,13 +56,22 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   if (counts) {
     const double before = energy_;
     observe_work(state, booked_at_, measured);
-    // It may have been an error of the tracker, for which the hand shall not wait for its force for long.
-    if (has_caught_up_) energy_ = std::clamp(energy_, std::min(before, -kMostDebt_J), before);
+    // It may have been an error of the tracker, for which the hand shall not wait for its force for long: but not of
+    // one that stands still again and again.
+    if (has_caught_up_) {
+      energy_ = std::min(energy_, before);
+      const double least = std::min(before, -kMostDebt_J);
+      if (energy_ < least && measured >= forgives_from_) {
+        energy_ = least;
+        forgives_from_ = measured + kForgivesAgain;
+      }
+    }
   }
   has_caught_up_ = goes_on && !counts && (has_caught_up_ || catches_up);
   if (!goes_on || counts) {
     booked_ = state;
     booked_at_ = measured;
+    if (!goes_on) X_WH_in_play_ = state.X_WH;
   }
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;

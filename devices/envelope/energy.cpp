@@ -17,11 +17,9 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr double kMostEnergy_m = 0.25;  // times the largest force
-constexpr double kLeastScale = 0.2;     // where all energy is gone: the rest shrinks with what is left
-constexpr double kScaleFall_s = 0.03;
-constexpr double kScaleRise_s = 0.3;
-constexpr double kReserve_J = 0.005;  // not given away, because the rates come after this limit
-constexpr double kFall_J = 0.05;      // of a spring that falls from the largest force to zero
+// The wrench goes on for so long a way before it falls: so it comes back from zero without a jump.
+constexpr double kSpare_m = 1e-3;
+constexpr double kSpare_rad = 0.01;
 constexpr double kRecovery_W = 0.3;
 constexpr double kRefill_W = 0.25;       // of the 0.3 W that are promised: the rest is for ways that are not measured
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
@@ -31,18 +29,23 @@ constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is 
 constexpr double kCalmRefill_W = 0.5;
 constexpr double kMostGiven_J = 0.1;
 constexpr double kTremblingRefill_W = 0.15;
+constexpr double kMeanSpeed_s = 0.03;
 constexpr double kRestingSpeed_m_per_s = 0.03;
 constexpr double kRestingTurnRate = 0.5;  // rad/s
 constexpr nanoseconds kRested = std::chrono::milliseconds(500);
 constexpr double kForgotten_s = 1.0;
-
-/// The norm by the largest one; 0 where there is none.
-double share_of_largest(const Eigen::Vector3d& vector, double largest) noexcept {
-  return largest > 0.0 ? vector.norm() / largest : 0.0;
-}
+constexpr double kUsualResolution_m = 30e-6;  // of a device that does not tell
+constexpr double kPlayPerResolution = 4.0;    // noise of this standard deviation hardly ever leaves it
+constexpr double kPlayLever_m = 0.1;          // rotations count by the way at this distance
 
 double time_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
   return vector.isZero(0.0) ? 0.0 : vector.norm() / rate;
+}
+
+/// What of the vector is longer than `play`.
+Eigen::Vector3d beyond(double play, const Eigen::Vector3d& vector) noexcept {
+  const double length = vector.norm();
+  return length > play ? Eigen::Vector3d((1.0 - play / length) * vector) : Eigen::Vector3d(0.0, 0.0, 0.0);
 }
 
 /// The rotation from A to B as a vector, small angles only.
@@ -73,17 +76,38 @@ void SafetyEnvelope::observe_work(const GloveState& state, nanoseconds begin, na
   const bool is_known = end - begin <= std::max<nanoseconds>(patience_, kExertedWithoutCommand);
   book(is_known ? -given : std::min(0.0, -given));
 
-  // Not every device tells its velocity.
-  const bool moves = std::max(state.v_WH.norm(), way.norm() / seconds) > kRestingSpeed_m_per_s ||
-                     std::max(state.w_WH.norm(), turn.norm() / seconds) > kRestingTurnRate;
+  observe_strokes(state, begin, end, seconds);
+  given_->forget_until(end);
+}
+
+/// Noise of the tracker is neither a stroke nor motion: what counts is the motion of a pose that follows the measured
+/// one with a play.
+void SafetyEnvelope::observe_strokes(const GloveState& state, nanoseconds begin, nanoseconds end,
+                                     double seconds) noexcept {
+  const double play = kPlayPerResolution * (descriptor_.resolution > 0.0 ? descriptor_.resolution : kUsualResolution_m);
+  const Eigen::Vector3d way = beyond(play, state.X_WH.translation() - X_WH_in_play_.translation());
+  const Eigen::Vector3d turn = beyond(play / kPlayLever_m, turn_between(X_WH_in_play_.linear(), state.X_WH.linear()));
+  X_WH_in_play_.translation() += way;
+  if (!turn.isZero(0.0)) {
+    X_WH_in_play_.linear() =
+        Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix() * X_WH_in_play_.linear();
+  }
+  const double given = given_->work(
+      begin, end, [&](double u) { return Eigen::Vector3d(u * way); },
+      [&](double u) { return Eigen::Vector3d(u * turn); });
+  // No more than that counts, so that a contact is calm soon after a great stroke.
+  double& stirred = given < 0.0 ? came_ : went_;
+  stirred = std::min(stirred + std::abs(given), kMostStirred_J);
+  const double share = std::min(1.0, seconds / kMeanSpeed_s);
+  v_in_play_ += share * (way / seconds - v_in_play_);
+  w_in_play_ += share * (turn / seconds - w_in_play_);
+  const bool moves = std::abs(v_in_play_.dot(wanted_.f.normalized())) > kRestingSpeed_m_per_s ||
+                     std::abs(w_in_play_.dot(wanted_.t.normalized())) > kRestingTurnRate;
   if (moves) moves_until_ = end + kRested;
 }
 
 void SafetyEnvelope::book(double change) noexcept {
   energy_ = std::min(energy_ + change, most_energy());
-  // No more than that counts, so that a contact is calm soon after a great stroke.
-  double& stirred = change > 0.0 ? came_ : went_;
-  stirred = std::min(stirred + std::abs(change), kMostStirred_J);
   // Both bounds let old strokes be forgotten soon. Energy given to the hand is remembered for longer than energy put
   // in.
   balance_ = std::clamp(balance_ + change, -kMostGiven_J, kMostStirred_J);
@@ -108,7 +132,7 @@ void SafetyEnvelope::take_supply(const GloveCommand& wanted, bool is_fading, dou
   owed_ -= change;
   // What comes from others is no stroke of the hand, and its contact stays calm.
   if (owed_ < 0.0) energy_ = std::min(energy_ - std::exchange(owed_, 0.0), most_energy());
-  const double taken = std::clamp(energy_ - kStartEnergy_J, 0.0, owed_);
+  const double taken = std::clamp(energy_ - enough_, 0.0, owed_);
   energy_ -= taken;
   taken_ += taken;
   owed_ = (owed_ - taken) * (1.0 - std::min(1.0, dt / kForgotten_s));
@@ -128,7 +152,10 @@ void SafetyEnvelope::observe_share(const Forces& exerted) noexcept {
 /// interruption, in which the hand may have gone anywhere, a refill lifts it; many interruptions use it up. It also
 /// pays off slowly what a contact has given too much, e.g. because its contacts vanished for a moment: but only while
 /// nothing oscillates.
-void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) noexcept {
+void SafetyEnvelope::settle_energy(const Forces& forces, nanoseconds now, double dt) noexcept {
+  const auto is_none = [](const Forces& some) { return some.f.isZero(0.0) && some.t.isZero(0.0); };
+  const bool has_contact = !is_none(last_) || !is_none(forces);
+  enough_ = has_contact ? std::max(kStartEnergy_J, spare(forces) + work_of_fall(forces)) : kStartEnergy_J;
   refill_ = std::min(kMostRefill_J, refill_ + kRefill_W * dt);
   if (gain_ < 1.0) free_until_ = now + kReturnIsFree;
   const double kept = 1.0 - std::min(1.0, dt / kStir_s);
@@ -136,50 +163,57 @@ void SafetyEnvelope::settle_energy(bool has_force, nanoseconds now, double dt) n
   went_ *= kept;
   balance_ *= kept;
   // A force that comes back and slowly moves the hand is no oscillation.
-  const double calm = std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
-  if (energy_ < kStartEnergy_J) {
+  const bool rests = now >= moves_until_;
+  const double calm = rests ? std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J) : 0.0;
+  if (energy_ < enough_) {
     // A hand that rests trembles, and puts in what it gets; an oscillation that feeds on the device gets more.
-    const double trembling = now >= moves_until_ && balance_ > 0.0 ? kTremblingRefill_W : 0.0;
-    const double recovery = has_force ? std::max(calm * kCalmRefill_W, trembling) : kRecovery_W;
+    const double trembling = rests && balance_ > 0.0 ? kTremblingRefill_W : 0.0;
+    const double recovery = has_contact ? std::max(calm * kCalmRefill_W, trembling) : kRecovery_W;
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
-    const double refilled = std::min(kStartEnergy_J - energy_, most);
+    const double refilled = std::min(enough_ - energy_, most);
     refill_ -= refilled;
     energy_ += refilled;
   }
-  if (!has_force) energy_ = std::min(kStartEnergy_J, energy_);
+  if (!has_contact) energy_ = std::min(kStartEnergy_J, energy_);
 }
 
 // A glove behind a link has an envelope of its own, which knows the motion without delay.
 //
-// The wrench shrinks smoothly with the energy that is left. What remains is a share c of the wrench: if it goes on for
-// a while at the present velocity, and then falls as a spring's, it gives just what is left,
+// What is given is a share c of the wrench: if it goes on for a while at the present velocity, and then falls as a
+// spring's that the device renders passively, it gives just what is left,
 //   c · (work of going on) + c² · (work of the fall) = energy left.
 // A hand at rest finds the same force from tick to tick, however its velocity trembles: near zero energy the fall alone
 // counts, and c goes as the root of the energy, as the force of a spring does.
-void SafetyEnvelope::limit_energy(Forces& forces, double dt, LimitReasons& reasons) noexcept {
+void SafetyEnvelope::limit_energy(Forces& forces, LimitReasons& reasons) noexcept {
   if (state_.link_delay > nanoseconds(0)) return;
-  const double left = std::clamp(energy_ / kStartEnergy_J, 0.0, 1.0);
-  const double target = kLeastScale + (1.0 - kLeastScale) * left * left * (3.0 - 2.0 * left);
-  energy_scale_ += std::clamp(target - energy_scale_, -dt / kScaleFall_s, dt / kScaleRise_s);
-  const double size = energy_scale_ * std::max(share_of_largest(forces.f, descriptor_.max_force),
-                                               share_of_largest(forces.t, descriptor_.max_torque));
-  const double fall = kFall_J * size * size;
+  const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
   // What it has been given and does not exert yet is not counted yet.
   const double ahead_s = in_seconds(descriptor_.delay) +
                          std::max({kEnergyPeriods * in_seconds(period_), time_to_zero(last_.f, force_rate_),
                                    time_to_zero(last_.t, torque_rate_)});
-  const double power = energy_scale_ * (forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
-  const double going_on = ahead_s * std::max(0.0, power);
+  const double going_on =
+      spare(forces) + ahead_s * std::max(0.0, forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH));
   const double under_way = std::max(0.0, given_->work_to_come(last_call_, state_.v_WH, state_.w_WH));
-  const double available = std::max(0.0, energy_ - kReserve_J - under_way);
+  const double available = std::max(0.0, energy_ - under_way);
   const double root = going_on + std::sqrt(going_on * going_on + 4.0 * fall * available);
   const double share = available > 0.0 ? std::min(1.0, 2.0 * available / root) : 0.0;
-  const double scale = energy_scale_ * share;
-  if (scale >= 1.0) return;
-  forces.f *= scale;
-  forces.t *= scale;
+  if (share >= 1.0) return;
+  forces.f *= share;
+  forces.t *= share;
   reasons.energy_limited = true;
+}
+
+double SafetyEnvelope::spare(const Forces& forces) noexcept {
+  return kSpare_m * forces.f.norm() + kSpare_rad * forces.t.norm();
+}
+
+/// A law by which the force goes as the root of an energy is a spring itself, and must be passive, too.
+double SafetyEnvelope::work_of_fall(const Forces& forces) const noexcept {
+  const auto stored = [](const Eigen::Vector3d& vector, double stiffness) {
+    return stiffness > 0.0 ? 0.5 * vector.squaredNorm() / stiffness : 0.0;
+  };
+  return stored(forces.f, stiffness_) + stored(forces.t, rotational_stiffness_);
 }
 
 }  // namespace glissade::devices

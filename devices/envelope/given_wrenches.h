@@ -37,11 +37,10 @@ class GivenWrenches {
   }
 
   /// The work (J) on a hand whose motion between `begin` and `end`, which is later, is so far: `moved` and `turned` are
-  /// functions of the share of this time, from 0 to 1, and return the way until then (m, rad). Forgets what acts no
-  /// more at the end.
+  /// functions of the share of this time, from 0 to 1, and return the way until then (m, rad).
   template <typename Moved, typename Turned>
   double work(std::chrono::nanoseconds begin, std::chrono::nanoseconds end, const Moved& moved,
-              const Turned& turned) noexcept {
+              const Turned& turned) const noexcept {
     const double duration = std::chrono::duration<double>(end - begin).count();
     const auto share = [&](std::chrono::nanoseconds time) {
       return std::clamp(std::chrono::duration<double>(time - begin).count() / duration, 0.0, 1.0);
@@ -56,9 +55,13 @@ class GivenWrenches {
       const double b = share(until);
       if (b > a) sum += wrench.f.dot(moved(b) - moved(a)) + wrench.t.dot(turned(b) - turned(a));
     }
-    while (count_ > 1 && at(1).given + delay_ <= end)
-      drop_oldest();
     return sum;
+  }
+
+  /// Forgets what acts no more at this time.
+  void forget_until(std::chrono::nanoseconds time) noexcept {
+    while (count_ > 1 && at(1).given + delay_ <= time)
+      drop_oldest();
   }
 
   /// The work (J) that those before the newest will still do on a hand that goes on at velocity v (m/s) and w (rad/s).

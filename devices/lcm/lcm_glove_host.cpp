@@ -1,3 +1,4 @@
+#include <chrono>
 #include <utility>
 
 #include <glissade/devices/lcm_glove.h>
@@ -7,12 +8,18 @@
 
 namespace glissade::devices {
 
+namespace {
+
+constexpr std::chrono::milliseconds kPeriodOfServers{1};  // a faster glove waits for them
+
+}  // namespace
+
 LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& descriptor,
                            const LcmGloveHostOptions& options)
     : bus_(checked_bus(std::move(bus), "The host of an LCM glove")),
       options_(options),
       session_(random_session()),
-      envelope_(descriptor, options.patience_periods),
+      envelope_(descriptor, options.patience_periods, kPeriodOfServers),
       monitor_(std::make_unique<LinkMonitor>(options.lease)) {
   subscription_ = bus_->subscribe(kGloveCommandChannel, [this](std::span<const std::uint8_t> message) {
     CommandHeader header;

@@ -162,6 +162,26 @@ TEST_F(BothEnds, CommandsReachTheGloveWithinItsLimits) {
   EXPECT_GT(newest.time, nanoseconds(0));
 }
 
+TEST_F(BothEnds, AFastGloveWaitsForAServerOfAThousandTicksASecond) {
+  DeviceDescriptor fast = descriptor;
+  fast.update_rate = 10'000.0;
+  LcmGloveHost impatient(bus, fast, {.device = 2});
+  LcmGlove server(bus, fast, {.device = 2});
+  wanted.f_H_W.x() = 15.0;
+  EXPECT_TRUE(eventually([&] {
+    std::this_thread::sleep_for(milliseconds(1));
+    state.time = clock.now();
+    ++state.sequence;
+    impatient.publish(state);
+    if (server.read(seen)) {
+      wanted.sequence = wanted.state_sequence = seen.sequence;
+      wanted.state_time = seen.time;
+      server.command(envelope.limit(wanted, seen, clock.now()));
+    }
+    return impatient.newest_command(state).values().f_H_W.x() > 1.0;
+  }));
+}
+
 TEST_F(BothEnds, AServerThatFallsSilentLosesItsForceByARamp) {
   wanted.f_H_W.x() = 15.0;
   ASSERT_TRUE(eventually([&] { return period().values().f_H_W.x() == 15.0; }));
