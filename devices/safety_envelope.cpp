@@ -1,190 +1,141 @@
 #include <algorithm>
-#include <cmath>
 
 #include <glissade/devices/safety_envelope.h>
 
+#include "envelope/energy_limit.h"
 #include "envelope/envelope_numbers.h"
-#include "envelope/given_wrenches.h"
+#include "envelope/fade.h"
+#include "envelope/link_delay.h"
+#include "envelope/simple_limits.h"
+#include "envelope/state_check.h"
 
 namespace glissade::devices {
-namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kFadePeriods = 7.0;
-constexpr double kLongestFallPeriods = 15.0;  // at 1 kHz, a force that falls in 20 gives more energy than is there
-constexpr double kReturn_s = 0.2;
-constexpr double kMeanTime_s = 10.0;
-constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
+namespace {
 
-/// Scales `vector` down to the norm `limit` if it exceeds it; returns whether it did.
-bool limit_norm(Eigen::Vector3d& vector, double limit) noexcept {
-  // Division by the largest component comes first: the squares of huge components would overflow, and so might their
-  // sum.
-  const double largest = vector.lpNorm<Eigen::Infinity>();
-  if (largest <= limit && vector.norm() <= limit) return false;
-  vector /= largest;
-  vector *= limit / vector.norm();
-  // Rounding may have left the norm a few units in the last place too large.
-  constexpr double kJustBelowOne = 1.0 - 1e-15;
-  if (vector.norm() > limit) vector *= kJustBelowOne;
-  return true;
+nanoseconds rounded(std::chrono::duration<double> time) {
+  return std::chrono::duration_cast<nanoseconds>(time);
 }
 
-/// Moves `value` to `last` plus at most `step` of the way to it; returns whether that is short of it.
-bool limit_step(Eigen::Vector3d& value, const Eigen::Vector3d& last, double step) noexcept {
-  Eigen::Vector3d change = value - last;
-  if (!limit_norm(change, step)) return false;
-  value = last + change;
-  return true;
-}
-
-double rate_or_default(double rate, double maximum, const DeviceDescriptor& descriptor) noexcept {
-  return rate > 0.0 ? rate : maximum * descriptor.update_rate / kFadePeriods;
+nanoseconds period_of(const DeviceDescriptor& descriptor, nanoseconds of_caller) {
+  validate(descriptor);
+  return std::max(of_caller, rounded(std::chrono::duration<double>(1.0 / descriptor.update_rate)));
 }
 
 }  // namespace
 
+/// The stages through which a command passes, and what they share.
+struct SafetyEnvelope::Stages {
+  Stages(const DeviceDescriptor& of_device, double patience_periods, nanoseconds period_of_caller)
+      : descriptor(of_device),
+        period(period_of(of_device, period_of_caller)),
+        rates(descriptor, in_seconds(period)),
+        check(descriptor, rounded(patience_periods * std::chrono::duration<double>(period))),
+        fade(descriptor, in_seconds(period)),
+        norms(descriptor),
+        energy(descriptor, period, rounded(patience_periods * std::chrono::duration<double>(period))) {
+    descriptor.max_force = rates.max_force();
+    descriptor.max_torque = rates.max_torque();
+  }
+
+  void observe(const GloveState& state, nanoseconds now) noexcept {
+    if (const std::optional<BookedMotion> motion = check.observe(state, now)) energy.observe(*motion, wanted);
+  }
+
+  double seconds_since_last_call(nanoseconds now) noexcept {
+    const nanoseconds passed = has_been_called ? now - last_call : nanoseconds(0);
+    has_been_called = true;
+    last_call = now;
+    return in_seconds(std::clamp(passed, nanoseconds(0), 2 * period));
+  }
+
+  DeviceDescriptor descriptor;  // with the maxima that the rates lower
+  nanoseconds period;
+  RateLimit rates;
+  StateCheck check;
+  LinkDelay link_delay;
+  Fade fade;
+  NormLimit norms;
+  EnergyLimit energy;
+  Forces wanted;  // newest finite one
+  Forces last;    // always finite
+  bool is_stopped = false;
+  bool has_been_called = false;
+  nanoseconds last_call{0};
+};
+
 SafetyEnvelope::SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods,
                                nanoseconds period_of_caller)
-    : descriptor_(descriptor), energy_(kStartEnergy_J), refill_(kMostRefill_J), enough_(kStartEnergy_J) {
-  validate(descriptor_);
-  const auto rounded = [](std::chrono::duration<double> time) { return std::chrono::duration_cast<nanoseconds>(time); };
-  const nanoseconds of_device = rounded(std::chrono::duration<double>(1.0 / descriptor_.update_rate));
-  period_ = std::max(period_of_caller, of_device);
-  patience_ = rounded(patience_periods * std::chrono::duration<double>(period_));
-  force_rate_ = rate_or_default(descriptor_.max_force_rate, descriptor_.max_force, descriptor_);
-  torque_rate_ = rate_or_default(descriptor_.max_torque_rate, descriptor_.max_torque, descriptor_);
-  const double longest_fall_s = kLongestFallPeriods * in_seconds(period_);
-  descriptor_.max_force = std::min(descriptor_.max_force, force_rate_ * longest_fall_s);
-  descriptor_.max_torque = std::min(descriptor_.max_torque, torque_rate_ * longest_fall_s);
-  joint_torque_rate_ = joint_torque_rate(descriptor_);
-  const double lag = lag_of(descriptor_, period_, nanoseconds(0));
-  stiffness_ = std::min(descriptor_.max_stiffness,
-                        passive_limit(descriptor_, descriptor_.damping, descriptor_.max_stiffness, lag));
-  rotational_stiffness_ =
-      std::min(descriptor_.max_rotational_stiffness,
-               passive_limit(descriptor_, descriptor_.rotational_damping, descriptor_.max_rotational_stiffness, lag));
-  given_ = std::make_unique<GivenWrenches>(descriptor_.delay,
-                                           std::max<nanoseconds>(kExertedWithoutCommand, 2 * period_), of_device);
-}
+    : stages_(std::make_unique<Stages>(descriptor, patience_periods, period_of_caller)) {}
 
 SafetyEnvelope::SafetyEnvelope(SafetyEnvelope&&) noexcept = default;
 SafetyEnvelope& SafetyEnvelope::operator=(SafetyEnvelope&&) noexcept = default;
 SafetyEnvelope::~SafetyEnvelope() = default;
 
+void SafetyEnvelope::stop() noexcept {
+  stages_->is_stopped = true;
+}
+
+const DeviceDescriptor& SafetyEnvelope::descriptor() const noexcept {
+  return stages_->descriptor;
+}
+
+nanoseconds SafetyEnvelope::link_delay() const noexcept {
+  return stages_->link_delay.least();
+}
+
+bool SafetyEnvelope::trusts(const GloveState& newest, nanoseconds now) noexcept {
+  stages_->observe(newest, now);
+  return is_finite(newest) && stages_->check.trusts(now);
+}
+
 SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& newest, nanoseconds now) noexcept {
-  const double dt = seconds_since_last_call(now);
-  observe(newest, now);
+  Stages& stages = *stages_;
+  const double dt = stages.seconds_since_last_call(now);
+  stages.observe(newest, now);
+  const GloveState& state = stages.check.state();
 
   SafeCommand safe;
   LimitReasons& reasons = safe.reasons_;
-  reasons = faults(wanted, newest, now);
+  reasons = stages.check.faults(wanted, newest, stages.link_delay.least(), now);
+  reasons.is_stopped = stages.is_stopped;
   if (!reasons.not_finite) {
-    safe.age_ = age_of(wanted.state_time, now);
-    safe.state_age_ = age_of(state_.time, now);
-    observe_delay(safe.age_, now);
+    safe.age_ = stages.check.age_of(wanted.state_time, now);
+    safe.state_age_ = stages.check.age_of(state.time, now);
+    stages.link_delay.observe(safe.age_, now);
   }
+  const bool is_fading = reasons.is_fading();
   if (is_finite(wanted)) {
-    wanted_ = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
-    take_supply(wanted, reasons.is_fading(), dt);
+    stages.wanted = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
+    stages.energy.take_supply(wanted, is_fading, dt);
   }
-  const double change = reasons.is_fading() ? -dt / (kFadePeriods * in_seconds(period_)) : dt / kReturn_s;
-  gain_ = std::clamp(gain_ + change, 0.0, 1.0);
-  reasons.is_returning = !reasons.is_fading() && gain_ < 1.0;
+  stages.fade.advance(is_fading, dt);
+  reasons.is_returning = !is_fading && !stages.fade.is_whole();
 
-  Forces forces = reasons.is_fading() ? faded(dt) : wanted_;
-  limit_norms(forces, reasons);
-  if (!reasons.is_fading()) {
-    forces.f *= gain_;
-    forces.t *= gain_;
-    for (double& torque : forces.joints)
-      torque *= gain_;
-  }
-  limit_power(forces, reasons);
-  settle_energy(forces, now, dt);
-  limit_energy(forces, reasons);
-  limit_rates(forces, dt, reasons);
+  Forces forces = is_fading ? stages.fade.fading(stages.last, dt) : stages.wanted;
+  stages.norms.limit(forces, reasons);
+  if (!is_fading) forces = stages.fade.returning(forces);
+  limit_power(forces, state, stages.descriptor.max_power, reasons);
+  stages.energy.settle(forces, !stages.fade.is_whole(), now, dt);
+  stages.energy.limit(forces, state, stages.rates.time_to_zero(stages.last), now, reasons);
+  stages.rates.limit(forces, stages.last, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
-  // The return begins at zero, however soon the force was there.
-  const bool is_zero = forces.f.isZero(0.0) && forces.t.isZero(0.0) && forces.joints == hands::JointValues{};
-  if (reasons.is_fading() && is_zero) gain_ = 0.0;
-  mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
-  last_ = forces;
-  observe_share(forces);
-  given_->give(now, forces.f, forces.t);
+  if (is_fading && !forces.has_wrench() && forces.joints == hands::JointValues{}) stages.fade.begin_at_zero();
+  stages.norms.observe_given(forces, dt);
+  stages.energy.observe_given(stages.wanted, forces, now);
+  stages.last = forces;
 
-  safe.energy_ = energy_;
-  safe.taken_ = taken_;
+  safe.energy_ = stages.energy.energy();
+  safe.taken_ = stages.energy.supply().taken();
   safe.values_ = wanted;
-  safe.values_.supply = supply_;
+  safe.values_.supply = stages.energy.supply().total();
   safe.values_.f_H_W = forces.f;
   safe.values_.t_H_W = forces.t;
   safe.values_.joint_torques = forces.joints;
   return safe;
-}
-
-double SafetyEnvelope::seconds_since_last_call(nanoseconds now) noexcept {
-  const nanoseconds passed = has_been_called_ ? now - last_call_ : nanoseconds(0);
-  has_been_called_ = true;
-  last_call_ = now;
-  return in_seconds(std::clamp(passed, nanoseconds(0), 2 * period_));
-}
-
-// Straight to zero, so that a change of the wanted direction cannot make the fade longer.
-SafetyEnvelope::Forces SafetyEnvelope::faded(double dt) const noexcept {
-  const double share = dt / (kFadePeriods * in_seconds(period_));
-  const auto shorter = [](const Eigen::Vector3d& vector, double by) {
-    const double norm = vector.norm();
-    return norm > by ? Eigen::Vector3d((1.0 - by / norm) * vector) : Eigen::Vector3d(Eigen::Vector3d::Zero());
-  };
-  Forces forces{shorter(last_.f, share * descriptor_.max_force), shorter(last_.t, share * descriptor_.max_torque), {}};
-  const double by = share * descriptor_.max_joint_torque;
-  for (std::size_t i = 0; i < hands::kJoints; ++i)
-    forces.joints[i] = last_.joints[i] - std::clamp(last_.joints[i], -by, by);
-  return forces;
-}
-
-void SafetyEnvelope::limit_norms(Forces& forces, LimitReasons& reasons) const noexcept {
-  reasons.force_limited = limit_norm(forces.f, descriptor_.max_force);
-  reasons.torque_limited = limit_norm(forces.t, descriptor_.max_torque);
-  const double joint_limit = descriptor_.max_joint_torque;
-  for (double& torque : forces.joints) {
-    if (std::abs(torque) <= joint_limit) continue;
-    torque = std::copysign(joint_limit, torque);
-    reasons.joints_limited = true;
-  }
-  const double largest_mean = descriptor_.max_mean_force;
-  if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return;
-  const double excess = std::clamp((mean_force_ / largest_mean - kSoftMean) / (1.0 - kSoftMean), 0.0, 1.0);
-  const double limit = descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
-  reasons.mean_limited = excess > 0.0 && limit_norm(forces.f, limit);
-}
-
-void SafetyEnvelope::limit_power(Forces& forces, LimitReasons& reasons) const noexcept {
-  const double power = forces.f.dot(state_.v_WH) + forces.t.dot(state_.w_WH);
-  if (power <= descriptor_.max_power) return;
-  // Velocities near the largest numbers make a power that is infinite or none.
-  const double share = std::isfinite(power) ? descriptor_.max_power / power : 0.0;
-  forces.f *= share;
-  forces.t *= share;
-  reasons.power_limited = true;
-}
-
-void SafetyEnvelope::limit_rates(Forces& forces, double dt, LimitReasons& reasons) const noexcept {
-  const bool force_limited = limit_step(forces.f, last_.f, force_rate_ * dt);
-  const bool torque_limited = limit_step(forces.t, last_.t, torque_rate_ * dt);
-  // The sum above may exceed a limit by rounding.
-  limit_norm(forces.f, descriptor_.max_force);
-  limit_norm(forces.t, descriptor_.max_torque);
-  reasons.rate_limited = force_limited || torque_limited;
-  for (std::size_t i = 0; i < hands::kJoints; ++i) {
-    const double step = joint_torque_rate_ * dt;
-    const double limited = std::clamp(forces.joints[i], last_.joints[i] - step, last_.joints[i] + step);
-    reasons.rate_limited = reasons.rate_limited || limited != forces.joints[i];
-    forces.joints[i] = limited;
-  }
 }
 
 }  // namespace glissade::devices

@@ -5,17 +5,11 @@
 
 #include <chrono>
 #include <memory>
-#include <optional>
 #include <string>
-
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
-
-class GivenWrenches;
 
 /// A command that a device may execute. Only `SafetyEnvelope` makes one that is not zero.
 class SafeCommand {
@@ -114,100 +108,19 @@ class SafetyEnvelope {
   bool trusts(const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
   /// Emergency stop: from now on the force fades to zero and stays there.
-  void stop() noexcept { is_stopped_ = true; }
+  void stop() noexcept;
 
   /// With force and torque as the rates lower them.
-  const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
+  const DeviceDescriptor& descriptor() const noexcept;
 
   /// The smallest age of a command in the last half second or longer: at the glove's end, the delay of the whole round
   /// trip. 0 in the first half second, and where it would be more than 150 ms, because that is a silence.
   std::chrono::nanoseconds link_delay() const noexcept;
 
  private:
-  struct Forces {
-    Eigen::Vector3d f = Eigen::Vector3d::Zero();
-    Eigen::Vector3d t = Eigen::Vector3d::Zero();
-    hands::JointValues joints{};
-  };
+  struct Stages;
 
-  double seconds_since_last_call(std::chrono::nanoseconds now) noexcept;
-  void observe(const GloveState& state, std::chrono::nanoseconds now) noexcept;
-  bool is_plausible(const GloveState& state) noexcept;
-  bool may_have_gone_to(const GloveState& state) const noexcept;
-  void update_offset(const GloveState& state, std::chrono::nanoseconds now) noexcept;
-  LimitReasons faults(const GloveCommand& wanted, const GloveState& newest,
-                      std::chrono::nanoseconds now) const noexcept;
-  std::chrono::nanoseconds age_of(std::chrono::nanoseconds measured, std::chrono::nanoseconds now) const noexcept;
-  Forces faded(double dt) const noexcept;
-  void limit_norms(Forces& forces, LimitReasons& reasons) const noexcept;
-  void limit_power(Forces& forces, LimitReasons& reasons) const noexcept;
-  void observe_work(const GloveState& state, std::chrono::nanoseconds begin, std::chrono::nanoseconds end) noexcept;
-  void observe_strokes(const GloveState& state, std::chrono::nanoseconds begin, std::chrono::nanoseconds end,
-                       double seconds) noexcept;
-  void book(double change) noexcept;
-  void take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept;
-  void observe_share(const Forces& exerted) noexcept;
-  double most_energy() const noexcept;
-  void settle_energy(const Forces& forces, std::chrono::nanoseconds now, double dt) noexcept;
-  static double spare(const Forces& forces) noexcept;
-  double work_of_fall(const Forces& forces) const noexcept;
-  void observe_delay(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept;
-  std::chrono::nanoseconds oldest_command() const noexcept;
-  void limit_energy(Forces& forces, LimitReasons& reasons) noexcept;
-  void limit_rates(Forces& forces, double seconds, LimitReasons& reasons) const noexcept;
-
-  DeviceDescriptor descriptor_;
-  std::chrono::nanoseconds period_;
-  std::chrono::nanoseconds patience_;
-  double force_rate_;
-  double torque_rate_;
-  double joint_torque_rate_;
-  double stiffness_;             // N/m, which the device renders passively
-  double rotational_stiffness_;  // Nm/rad
-
-  bool is_stopped_ = false;
-  double gain_ = 0.0;
-  double mean_force_ = 0.0;
-  Forces wanted_;  // newest finite one
-  Forces last_;    // always finite
-  bool has_been_called_ = false;
-  std::chrono::nanoseconds last_call_{0};
-
-  double energy_;
-  std::optional<double> told_supply_;  // by the last command; none after an interruption
-  std::int64_t told_sequence_ = 0;     // of that command
-  std::int64_t told_session_ = 0;
-  double supply_ = 0.0;   // J, passed on with the command
-  double owed_ = 0.0;     // J, for which others asked, and which the hand did not have
-  double taken_ = 0.0;    // J, that it gave up
-  double exerted_ = 0.0;  // share of the wanted wrench in the last command
-  double refill_;         // J, for all that recovers
-  double came_ = 0.0;     // J, in about the last half second
-  double went_ = 0.0;
-  double balance_ = 0.0;                     // likewise, what came less what went
-  std::chrono::nanoseconds moves_until_{0};  // up to then the hand does not count as at rest
-  Eigen::Isometry3d X_WH_in_play_ = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d v_in_play_ = Eigen::Vector3d::Zero();  // of that pose, m/s
-  Eigen::Vector3d w_in_play_ = Eigen::Vector3d::Zero();  // rad/s
-  double enough_;                                        // J, with which the wanted wrench is whole
-  std::chrono::nanoseconds free_until_{0};  // up to then the force returns, and the refill pays for its work
-  std::unique_ptr<GivenWrenches> given_;
-
-  std::chrono::nanoseconds least_age_before_{0};  // in the last whole half second
-  std::chrono::nanoseconds least_age_{0};         // since then
-  std::chrono::nanoseconds half_second_begin_{0};
-
-  bool has_state_ = false;
-  GloveState state_;                       // newest finite one
-  GloveState booked_;                      // up to which its work is booked
-  std::chrono::nanoseconds booked_at_{0};  // when it was measured, on the caller's clock
-  std::chrono::nanoseconds pose_time_{0};  // since when the pose repeats to the bit
-  bool has_caught_up_ = false;             // the last states jumped after poses that repeated
-  std::chrono::nanoseconds forgives_from_{std::chrono::nanoseconds::min()};  // what such a jump may cost
-  std::chrono::nanoseconds offset_{0};                                       // caller's clock minus glove's clock
-  std::chrono::nanoseconds late_time_{0};                                    // the time of that state
-  std::optional<std::chrono::nanoseconds> late_since_;  // when the first state came that was late, as all after it
-  std::chrono::nanoseconds distrust_until_{0};
+  std::unique_ptr<Stages> stages_;
 };
 
 }  // namespace glissade::devices

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the parts of the safety envelope share: which numbers count as finite, and the energies at the start.
+/// What the parts of the safety envelope share: which numbers count as finite, and for how long a command acts.
 
 #include <algorithm>
 #include <chrono>
@@ -10,9 +10,6 @@
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
-
-inline constexpr double kStartEnergy_J = 0.1;
-inline constexpr double kMostRefill_J = 1.0;  // for returns and calm contacts; comes back by kRefill_W
 
 /// After which a device without a command exerts nothing (docs/safety.md: what the maker must do).
 inline constexpr std::chrono::milliseconds kExertedWithoutCommand{10};

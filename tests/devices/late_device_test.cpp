@@ -26,8 +26,8 @@ struct Arm {
   double damping = 35.0;     ///< of hand and device
 };
 
-/// Moves along z, by semi-implicit Euler in steps of 0.1 ms. The wall is at z = 0 and wants `stiffness` times the depth,
-/// whatever the device can render.
+/// Moves along z, by semi-implicit Euler in steps of 0.1 ms. The wall is at z = 0 and wants `stiffness` times the
+/// depth, whatever the device can render.
 class PressedWall {
  public:
   PressedWall(const DeviceDescriptor& device, const Arm& arm, double stiffness)
@@ -73,8 +73,7 @@ class PressedWall {
     wanted.state_time = state_.time;
     wanted.f_H_W.z() = std::clamp(-stiffness_ * z, 0.0, device_.max_force);
     const SafeCommand safe = envelope_.limit(wanted, state_, now_);
-    on_their_way_.push_back(
-        {now_ + std::chrono::duration_cast<microseconds>(device_.delay), safe.values().f_H_W.z()});
+    on_their_way_.push_back({now_ + std::chrono::duration_cast<microseconds>(device_.delay), safe.values().f_H_W.z()});
   }
 
   DeviceDescriptor device_;

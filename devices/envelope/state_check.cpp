@@ -1,9 +1,7 @@
-/// Whether the basis of a command is new and plausible: states, clocks, delays and reasons to let the force fade.
+#include "envelope/state_check.h"
 
 #include <algorithm>
 #include <cmath>
-
-#include <glissade/devices/safety_envelope.h>
 
 #include "envelope/envelope_numbers.h"
 
@@ -19,11 +17,7 @@ constexpr std::int64_t kDriftShare = 5000;  // clocks may drift apart by one par
 constexpr double kJumpTolerance_m = 1e-3;
 constexpr double kTurnTolerance = 1e-2;  // rad
 constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
-constexpr nanoseconds kHalfSecond = std::chrono::milliseconds(500);
-constexpr double kMostDebt_J = 0.3;
 constexpr double kLongestRepeat_s = 0.1;
-constexpr nanoseconds kForgivesAgain = std::chrono::seconds(30);
-constexpr nanoseconds kLongestDelay = std::chrono::milliseconds(150);
 
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
   const double cosine = 0.5 * ((A.transpose() * B).trace() - 1.0);
@@ -32,18 +26,13 @@ double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcep
 
 }  // namespace
 
-bool SafetyEnvelope::trusts(const GloveState& newest, nanoseconds now) noexcept {
-  observe(newest, now);
-  return is_finite(newest) && now >= distrust_until_;
-}
-
-void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept {
+std::optional<BookedMotion> StateCheck::observe(const GloveState& state, nanoseconds now) noexcept {
   if (!is_finite(state)) {
     distrust_until_ = now + kDistrust;
-    return;
+    return std::nullopt;
   }
   const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
-  if (!is_new) return;
+  if (!is_new) return std::nullopt;
   const bool plausible = is_plausible(state);
   if (!plausible) distrust_until_ = now + kDistrust;
   const bool catches_up = !plausible && may_have_gone_to(state);
@@ -53,33 +42,21 @@ void SafetyEnvelope::observe(const GloveState& state, nanoseconds now) noexcept 
   // stood still for a while, it counts once the states are plausible again.
   const bool goes_on = has_state_ && (plausible || catches_up) && state.time >= booked_.time;
   const bool counts = goes_on && plausible && measured > booked_at_;
-  if (counts) {
-    const double before = energy_;
-    observe_work(state, booked_at_, measured);
-    // It may have been an error of the tracker, for which the hand shall not wait for its force for long: but not of
-    // one that stands still again and again.
-    if (has_caught_up_) {
-      energy_ = std::min(energy_, before);
-      const double least = std::min(before, -kMostDebt_J);
-      if (energy_ < least && measured >= forgives_from_) {
-        energy_ = least;
-        forgives_from_ = measured + kForgivesAgain;
-      }
-    }
-  }
+  std::optional<BookedMotion> motion;
+  if (counts) motion = {booked_, state, booked_at_, measured, has_caught_up_};
   has_caught_up_ = goes_on && !counts && (has_caught_up_ || catches_up);
   if (!goes_on || counts) {
     booked_ = state;
     booked_at_ = measured;
-    if (!goes_on) X_WH_in_play_ = state.X_WH;
   }
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;
   state_ = state;
   has_state_ = true;
+  return motion;
 }
 
-bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
+bool StateCheck::is_plausible(const GloveState& state) const noexcept {
   if (state.v_WH.norm() > descriptor_.max_speed || state.w_WH.norm() > descriptor_.max_turn_rate) return false;
   if (state.X_WH.translation().norm() > descriptor_.workspace_radius) return false;
   if (!has_state_) return true;  // nothing to compare with
@@ -98,14 +75,14 @@ bool SafetyEnvelope::is_plausible(const GloveState& state) noexcept {
 }
 
 /// Whether the hand may have gone to this pose while the last one repeated to the bit, of which 0.1 s counts.
-bool SafetyEnvelope::may_have_gone_to(const GloveState& state) const noexcept {
+bool StateCheck::may_have_gone_to(const GloveState& state) const noexcept {
   if (!has_state_ || state.time < state_.time) return false;
   const double way = (state.X_WH.translation() - state_.X_WH.translation()).norm();
   const double seconds = std::min(in_seconds(state.time - pose_time_), kLongestRepeat_s);
   return way <= descriptor_.max_speed * seconds + kJumpTolerance_m;
 }
 
-void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noexcept {
+void StateCheck::update_offset(const GloveState& state, nanoseconds now) noexcept {
   const nanoseconds difference = now - state.time;
   const bool is_first = !has_state_ || state.time < state_.time;
   // A clock that stands still does not go wrong, it fails.
@@ -124,33 +101,9 @@ void SafetyEnvelope::update_offset(const GloveState& state, nanoseconds now) noe
   }
 }
 
-nanoseconds SafetyEnvelope::age_of(nanoseconds measured, nanoseconds now) const noexcept {
-  return now - offset_ - measured;
-}
-
-void SafetyEnvelope::observe_delay(nanoseconds age, nanoseconds now) noexcept {
-  if (now - half_second_begin_ >= kHalfSecond) {
-    // The first half second is not whole: nothing is known before.
-    least_age_before_ = half_second_begin_ == nanoseconds(0) ? nanoseconds(0) : least_age_;
-    least_age_ = age;
-    half_second_begin_ = now;
-  }
-  least_age_ = std::max(nanoseconds(0), std::min(least_age_, age));
-}
-
-nanoseconds SafetyEnvelope::link_delay() const noexcept {
-  const nanoseconds least = std::min(least_age_before_, least_age_);
-  return least <= kLongestDelay ? least : nanoseconds(0);
-}
-
-nanoseconds SafetyEnvelope::oldest_command() const noexcept {
-  return link_delay() + patience_;
-}
-
-LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState& newest,
-                                    nanoseconds now) const noexcept {
+LimitReasons StateCheck::faults(const GloveCommand& wanted, const GloveState& newest, nanoseconds link_delay,
+                                nanoseconds now) const noexcept {
   LimitReasons reasons;
-  reasons.is_stopped = is_stopped_;
   reasons.is_disabled = !newest.is_enabled;
   reasons.is_refused = newest.obeys_another;
   reasons.not_finite = !is_finite(wanted) || !is_finite(newest);
@@ -159,7 +112,7 @@ LimitReasons SafetyEnvelope::faults(const GloveCommand& wanted, const GloveState
   reasons.is_state_old = age_of(state_.time, now) > patience_;
   const bool is_from_future = wanted.state_time > state_.time;
   reasons.is_command_old =
-      !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > oldest_command());
+      !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > link_delay + patience_);
   return reasons;
 }
 

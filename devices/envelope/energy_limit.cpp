@@ -1,0 +1,158 @@
+#include "envelope/energy_limit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "envelope/envelope_numbers.h"
+
+namespace glissade::devices {
+
+namespace {
+
+using std::chrono::nanoseconds;
+
+constexpr double kMostEnergy_m = 0.25;  // times the largest force
+// The wrench goes on for so long a way before it falls: so it comes back from zero without a jump.
+constexpr double kSpare_m = 1e-3;
+constexpr double kSpare_rad = 0.01;
+constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
+constexpr double kMostRefill_J = 1.0;    // for returns and calm contacts
+constexpr double kRefill_W = 0.25;       // of the 0.3 W that are promised: the rest is for ways that are not measured
+constexpr double kRecovery_W = 0.3;
+constexpr double kCalmRefill_W = 0.5;
+constexpr double kTremblingRefill_W = 0.15;
+constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
+constexpr double kMostDebt_J = 0.3;
+constexpr nanoseconds kForgivesAgain = std::chrono::seconds(30);
+
+double spare(const Forces& forces) noexcept {
+  return kSpare_m * forces.f.norm() + kSpare_rad * forces.t.norm();
+}
+
+}  // namespace
+
+EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, nanoseconds period, nanoseconds patience)
+    : descriptor_(descriptor),
+      longest_known_(std::max<nanoseconds>(patience, kExertedWithoutCommand)),
+      period_s_(in_seconds(period)),
+      given_(descriptor.delay, std::max<nanoseconds>(kExertedWithoutCommand, 2 * period),
+             std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(1.0 / descriptor.update_rate))),
+      strokes_(descriptor.resolution),
+      refill_(kMostRefill_J) {
+  const double lag = lag_of(descriptor, period, nanoseconds(0));
+  const auto passive = [&](double damping, double largest) {
+    return std::min(largest, passive_limit(descriptor, damping, largest, lag));
+  };
+  stiffness_ = passive(descriptor.damping, descriptor.max_stiffness);
+  rotational_stiffness_ = passive(descriptor.rotational_damping, descriptor.max_rotational_stiffness);
+}
+
+/// What the hand did between two states is taken as the cubic curve through both poses with both velocities: where
+/// states stay away, the force is gone after a few periods of a long way. How the hand really went there is not known,
+/// so it has put in nothing.
+void EnergyLimit::observe(const BookedMotion& motion, const Forces& wanted) noexcept {
+  const GloveState& from = motion.from;
+  const GloveState& to = motion.to;
+  // The glove's clock may have been set: the caller's time is the upper bound.
+  const double seconds = std::min(in_seconds(to.time - from.time), in_seconds(motion.end - motion.begin));
+  const auto curve = [seconds](const Eigen::Vector3d& way, const Eigen::Vector3d& v_begin,
+                               const Eigen::Vector3d& v_end) {
+    return [=](double u) {
+      return Eigen::Vector3d(u * u * (3.0 - 2.0 * u) * way +
+                             seconds * u * (1.0 - u) * ((1.0 - u) * v_begin - u * v_end));
+    };
+  };
+  const Eigen::Vector3d way = to.X_WH.translation() - from.X_WH.translation();
+  const Eigen::Vector3d turn = turn_between(from.X_WH.linear(), to.X_WH.linear());
+  const double given =
+      given_.work(motion.begin, motion.end, curve(way, from.v_WH, to.v_WH), curve(turn, from.w_WH, to.w_WH));
+  const bool is_known = motion.end - motion.begin <= longest_known_;
+  book(is_known ? -given : std::min(0.0, -given), motion.is_jump, motion.end);
+  strokes_.observe(motion, seconds, given_, wanted);
+  given_.forget_until(motion.end);
+}
+
+/// A jump may have been an error of the tracker, for which the hand shall not wait for its force for long: but not of a
+/// tracker that stands still again and again.
+void EnergyLimit::book(double change, bool is_jump, nanoseconds now) noexcept {
+  const double before = energy_;
+  energy_ = std::min(energy_ + change, most());
+  strokes_.book(change);
+  if (!is_jump) return;
+  energy_ = std::min(energy_, before);
+  const double least = std::min(before, -kMostDebt_J);
+  if (energy_ >= least || now < forgives_from_) return;
+  energy_ = least;
+  forgives_from_ = now + kForgivesAgain;
+}
+
+double EnergyLimit::most() const noexcept {
+  return std::max(kStartEnergy_J, kMostEnergy_m * descriptor_.max_force);
+}
+
+void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept {
+  // What comes from others is no stroke of the hand, and its contact stays calm.
+  energy_ = std::min(energy_ + supply_.take(wanted, is_fading, most(), descriptor_.max_power, dt), most());
+  energy_ -= supply_.give_up(energy_ - enough_, dt);
+}
+
+/// While the force returns from an interruption, in which the hand may have gone anywhere, a refill lifts it; many
+/// interruptions use it up. It also pays off slowly what a contact has given too much, e.g. because its contacts
+/// vanished for a moment: but only while nothing oscillates.
+void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, double dt) noexcept {
+  const bool has_contact = has_force_ || forces.has_wrench();
+  enough_ = has_contact ? std::max(kStartEnergy_J, spare(forces) + work_of_fall(forces)) : kStartEnergy_J;
+  refill_ = std::min(kMostRefill_J, refill_ + kRefill_W * dt);
+  if (returns) free_until_ = now + kReturnIsFree;
+  strokes_.forget(dt);
+  if (energy_ < enough_) {
+    const double in_contact =
+        std::max(strokes_.calm(now) * kCalmRefill_W, strokes_.puts_in(now) ? kTremblingRefill_W : 0.0);
+    const double recovery = has_contact ? in_contact : kRecovery_W;
+    const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
+    const double refilled = std::min(enough_ - energy_, most);
+    refill_ -= refilled;
+    energy_ += refilled;
+  }
+  if (!has_contact) energy_ = std::min(kStartEnergy_J, energy_);
+}
+
+// A glove behind a link has an envelope of its own, which knows the motion without delay.
+//
+// What is given is a share c of the wrench: if it goes on for a while at the present velocity, and then falls as a
+// spring's that the device renders passively, it gives just what is left,
+//   c · (work of going on) + c² · (work of the fall) = energy left.
+// A hand at rest finds the same force from tick to tick, however its velocity trembles: near zero energy the fall alone
+// counts, and c goes as the root of the energy, as the force of a spring does.
+void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_zero, nanoseconds now,
+                        LimitReasons& reasons) const noexcept {
+  if (state.link_delay > nanoseconds(0)) return;
+  const double fall = work_of_fall(forces);
+  // A device whose rates are low goes on giving while its force falls.
+  const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnergyPeriods * period_s_, time_to_zero);
+  const double going_on = spare(forces) + ahead_s * std::max(0.0, forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH));
+  // What the device has been given and does not exert yet is not counted yet.
+  const double under_way = std::max(0.0, given_.work_to_come(now, state.v_WH, state.w_WH));
+  const double available = std::max(0.0, energy_ - under_way);
+  const double root = going_on + std::sqrt(going_on * going_on + 4.0 * fall * available);
+  const double share = available > 0.0 ? std::min(1.0, 2.0 * available / root) : 0.0;
+  if (share >= 1.0) return;
+  forces.scale_wrench(share);
+  reasons.energy_limited = true;
+}
+
+/// A law by which the force goes as the root of an energy is a spring itself, and must be passive, too.
+double EnergyLimit::work_of_fall(const Forces& forces) const noexcept {
+  const auto stored = [](const Eigen::Vector3d& vector, double stiffness) {
+    return stiffness > 0.0 ? 0.5 * vector.squaredNorm() / stiffness : 0.0;
+  };
+  return stored(forces.f, stiffness_) + stored(forces.t, rotational_stiffness_);
+}
+
+void EnergyLimit::observe_given(const Forces& wanted, const Forces& given, nanoseconds now) noexcept {
+  supply_.observe_given(wanted, given, descriptor_);
+  given_.give(now, given.f, given.t);
+  has_force_ = given.has_wrench();
+}
+
+}  // namespace glissade::devices

@@ -1,0 +1,61 @@
+#pragma once
+
+/// The passivity observer and controller: the energy that force and torque may still give.
+
+#include <chrono>
+
+#include "envelope/forces.h"
+#include "envelope/given_wrenches.h"
+#include "envelope/state_check.h"
+#include "envelope/strokes.h"
+#include "envelope/supply.h"
+
+namespace glissade::devices {
+
+inline constexpr double kStartEnergy_J = 0.1;
+
+class EnergyLimit {
+ public:
+  /// `patience`: a hand whose states stay away for longer is not taken to have put in anything.
+  EnergyLimit(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period, std::chrono::nanoseconds patience);
+
+  /// Counts the work of a motion.
+  void observe(const BookedMotion& motion, const Forces& wanted) noexcept;
+
+  void take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept;
+
+  /// What was given or kept in a contact is settled when there is no force any more; what is missing recovers. `forces`
+  /// are wanted in this period. `returns`: after an interruption.
+  void settle(const Forces& forces, bool returns, std::chrono::nanoseconds now, double dt) noexcept;
+
+  /// `time_to_zero`: seconds in which the device's rates bring its wrench to zero.
+  void limit(Forces& forces, const GloveState& state, double time_to_zero, std::chrono::nanoseconds now,
+             LimitReasons& reasons) const noexcept;
+
+  void observe_given(const Forces& wanted, const Forces& given, std::chrono::nanoseconds now) noexcept;
+
+  double energy() const noexcept { return energy_; }  ///< J
+  const Supply& supply() const noexcept { return supply_; }
+
+ private:
+  double most() const noexcept;
+  double work_of_fall(const Forces& forces) const noexcept;
+  void book(double change, bool is_jump, std::chrono::nanoseconds now) noexcept;
+
+  const DeviceDescriptor& descriptor_;
+  std::chrono::nanoseconds longest_known_;  // between two states
+  double period_s_;
+  double stiffness_;             // N/m, which the device renders passively
+  double rotational_stiffness_;  // Nm/rad
+  GivenWrenches given_;
+  Strokes strokes_;
+  Supply supply_;
+  double energy_ = kStartEnergy_J;
+  double enough_ = kStartEnergy_J;             // J, with which the wanted wrench is whole
+  double refill_;                              // J, for all that recovers
+  bool has_force_ = false;                     // by the last command
+  std::chrono::nanoseconds free_until_{0};     // up to then the force returns, and the refill pays for its work
+  std::chrono::nanoseconds forgives_from_{0};  // what a jump may cost
+};
+
+}  // namespace glissade::devices

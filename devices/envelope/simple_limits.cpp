@@ -1,0 +1,101 @@
+#include "envelope/simple_limits.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "envelope/fade.h"
+
+namespace glissade::devices {
+namespace {
+
+constexpr double kLongestFallPeriods = 15.0;
+constexpr double kMeanTime_s = 10.0;
+constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
+
+/// Scales `vector` down to the norm `limit` if it exceeds it; returns whether it did.
+bool limit_norm(Eigen::Vector3d& vector, double limit) noexcept {
+  // Division by the largest component comes first: the squares of huge components would overflow, and so might their
+  // sum.
+  const double largest = vector.lpNorm<Eigen::Infinity>();
+  if (largest <= limit && vector.norm() <= limit) return false;
+  vector /= largest;
+  vector *= limit / vector.norm();
+  // Rounding may have left the norm a few units in the last place too large.
+  constexpr double kJustBelowOne = 1.0 - 1e-15;
+  if (vector.norm() > limit) vector *= kJustBelowOne;
+  return true;
+}
+
+/// Moves `value` to `last` plus at most `step` of the way to it; returns whether that is short of it.
+bool limit_step(Eigen::Vector3d& value, const Eigen::Vector3d& last, double step) noexcept {
+  Eigen::Vector3d change = value - last;
+  if (!limit_norm(change, step)) return false;
+  value = last + change;
+  return true;
+}
+
+double rate_or_default(double rate, double maximum, const DeviceDescriptor& descriptor) noexcept {
+  return rate > 0.0 ? rate : maximum * descriptor.update_rate / Fade::kPeriods;
+}
+
+double seconds_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
+  return vector.isZero(0.0) ? 0.0 : vector.norm() / rate;
+}
+
+}  // namespace
+
+void NormLimit::limit(Forces& forces, LimitReasons& reasons) const noexcept {
+  reasons.force_limited = limit_norm(forces.f, descriptor_.max_force);
+  reasons.torque_limited = limit_norm(forces.t, descriptor_.max_torque);
+  const double joint_limit = descriptor_.max_joint_torque;
+  for (double& torque : forces.joints) {
+    if (std::abs(torque) <= joint_limit) continue;
+    torque = std::copysign(joint_limit, torque);
+    reasons.joints_limited = true;
+  }
+  const double largest_mean = descriptor_.max_mean_force;
+  if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return;
+  const double excess = std::clamp((mean_force_ / largest_mean - kSoftMean) / (1.0 - kSoftMean), 0.0, 1.0);
+  const double limit = descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
+  reasons.mean_limited = excess > 0.0 && limit_norm(forces.f, limit);
+}
+
+void NormLimit::observe_given(const Forces& forces, double dt) noexcept {
+  mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
+}
+
+void limit_power(Forces& forces, const GloveState& state, double max_power, LimitReasons& reasons) noexcept {
+  const double power = forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH);
+  if (power <= max_power) return;
+  // Velocities near the largest numbers make a power that is infinite or none.
+  forces.scale_wrench(std::isfinite(power) ? max_power / power : 0.0);
+  reasons.power_limited = true;
+}
+
+RateLimit::RateLimit(const DeviceDescriptor& descriptor, double period_s)
+    : force_rate_(rate_or_default(descriptor.max_force_rate, descriptor.max_force, descriptor)),
+      torque_rate_(rate_or_default(descriptor.max_torque_rate, descriptor.max_torque, descriptor)),
+      joint_torque_rate_(joint_torque_rate(descriptor)),
+      max_force_(std::min(descriptor.max_force, force_rate_ * (kLongestFallPeriods * period_s))),
+      max_torque_(std::min(descriptor.max_torque, torque_rate_ * (kLongestFallPeriods * period_s))) {}
+
+void RateLimit::limit(Forces& forces, const Forces& last, double dt, LimitReasons& reasons) const noexcept {
+  const bool force_limited = limit_step(forces.f, last.f, force_rate_ * dt);
+  const bool torque_limited = limit_step(forces.t, last.t, torque_rate_ * dt);
+  // The sum above may exceed a limit by rounding.
+  limit_norm(forces.f, max_force_);
+  limit_norm(forces.t, max_torque_);
+  reasons.rate_limited = force_limited || torque_limited;
+  for (std::size_t i = 0; i < hands::kJoints; ++i) {
+    const double step = joint_torque_rate_ * dt;
+    const double limited = std::clamp(forces.joints[i], last.joints[i] - step, last.joints[i] + step);
+    reasons.rate_limited = reasons.rate_limited || limited != forces.joints[i];
+    forces.joints[i] = limited;
+  }
+}
+
+double RateLimit::time_to_zero(const Forces& forces) const noexcept {
+  return std::max(seconds_to_zero(forces.f, force_rate_), seconds_to_zero(forces.t, torque_rate_));
+}
+
+}  // namespace glissade::devices

@@ -1,0 +1,47 @@
+#pragma once
+
+/// The limits of a wrench and of joint torques that remember nothing, or only the mean.
+
+#include "envelope/forces.h"
+
+namespace glissade::devices {
+
+/// Norms, and the mean of the force over about ten seconds.
+class NormLimit {
+ public:
+  explicit NormLimit(const DeviceDescriptor& descriptor) : descriptor_(descriptor) {}
+
+  void limit(Forces& forces, LimitReasons& reasons) const noexcept;
+  void observe_given(const Forces& forces, double dt) noexcept;
+
+ private:
+  const DeviceDescriptor& descriptor_;
+  double mean_force_ = 0.0;
+};
+
+/// The power that a wrench puts into a hand of this velocity. A force against the motion is not limited.
+void limit_power(Forces& forces, const GloveState& state, double max_power, LimitReasons& reasons) noexcept;
+
+/// Rates of change, which come last. Force and torque are never greater than falls to zero within 15 periods: at 1 kHz,
+/// a force that falls in 20 gives more energy than is there.
+class RateLimit {
+ public:
+  RateLimit(const DeviceDescriptor& descriptor, double period_s);
+
+  void limit(Forces& forces, const Forces& last, double dt, LimitReasons& reasons) const noexcept;
+
+  /// Seconds in which the wrench falls to zero.
+  double time_to_zero(const Forces& forces) const noexcept;
+
+  double max_force() const noexcept { return max_force_; }
+  double max_torque() const noexcept { return max_torque_; }
+
+ private:
+  double force_rate_;   // N/s
+  double torque_rate_;  // Nm/s
+  double joint_torque_rate_;
+  double max_force_;
+  double max_torque_;
+};
+
+}  // namespace glissade::devices

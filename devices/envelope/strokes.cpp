@@ -1,0 +1,86 @@
+#include "envelope/strokes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace glissade::devices {
+namespace {
+
+constexpr double kUsualResolution_m = 30e-6;  // of a device that does not tell
+constexpr double kPlayPerResolution = 4.0;    // noise of this standard deviation hardly ever leaves it
+constexpr double kPlayLever_m = 0.1;          // rotations count by the way at this distance
+constexpr double kForget_s = 0.5;
+constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is not calm
+constexpr double kMostGiven_J = 0.1;
+constexpr double kMeanSpeed_s = 0.03;
+constexpr double kRestingSpeed_m_per_s = 0.03;
+constexpr double kRestingTurnRate = 0.5;  // rad/s
+constexpr std::chrono::milliseconds kRested{500};
+
+/// What of the vector is longer than `play`.
+Eigen::Vector3d beyond(double play, const Eigen::Vector3d& vector) noexcept {
+  const double length = vector.norm();
+  return length > play ? Eigen::Vector3d((1.0 - play / length) * vector) : Eigen::Vector3d(0.0, 0.0, 0.0);
+}
+
+}  // namespace
+
+Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
+  const Eigen::Matrix3d R = B * A.transpose();
+  return 0.5 * Eigen::Vector3d(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+}
+
+PoseInPlay::PoseInPlay(double resolution) noexcept
+    : play_(kPlayPerResolution * (resolution > 0.0 ? resolution : kUsualResolution_m)) {}
+
+PoseInPlay::Step PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
+  const Step step{beyond(play_, X_WH.translation() - X_WH_.translation()),
+                  beyond(play_ / kPlayLever_m, turn_between(X_WH_.linear(), X_WH.linear()))};
+  X_WH_.translation() += step.way;
+  if (!step.turn.isZero(0.0)) {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(step.turn.norm(), step.turn.normalized()).toRotationMatrix();
+    X_WH_.linear() = turn * X_WH_.linear();
+  }
+  return step;
+}
+
+void Strokes::observe(const BookedMotion& motion, double seconds, const GivenWrenches& given,
+                      const Forces& wanted) noexcept {
+  if (motion.from.time != last_) pose_.start_at(motion.from.X_WH);
+  last_ = motion.to.time;
+  const PoseInPlay::Step step = pose_.follow(motion.to.X_WH);
+  const double work = given.work(
+      motion.begin, motion.end, [&](double u) { return Eigen::Vector3d(u * step.way); },
+      [&](double u) { return Eigen::Vector3d(u * step.turn); });
+  // No more than that counts, so that a contact is calm soon after a great stroke.
+  double& stirred = work < 0.0 ? came_ : went_;
+  stirred = std::min(stirred + std::abs(work), kMostStirred_J);
+  if (seconds <= 0.0) return;
+  const double share = std::min(1.0, seconds / kMeanSpeed_s);
+  v_WH_ += share * (step.way / seconds - v_WH_);
+  w_WH_ += share * (step.turn / seconds - w_WH_);
+  const bool moves = std::abs(v_WH_.dot(wanted.f.normalized())) > kRestingSpeed_m_per_s ||
+                     std::abs(w_WH_.dot(wanted.t.normalized())) > kRestingTurnRate;
+  if (moves) moves_until_ = motion.end + kRested;
+}
+
+void Strokes::book(double change) noexcept {
+  // Both bounds let old strokes be forgotten soon. Energy given to the hand is remembered for longer than energy put
+  // in.
+  balance_ = std::clamp(balance_ + change, -kMostGiven_J, kMostStirred_J);
+}
+
+void Strokes::forget(double dt) noexcept {
+  const double kept = 1.0 - std::min(1.0, dt / kForget_s);
+  came_ *= kept;
+  went_ *= kept;
+  balance_ *= kept;
+}
+
+double Strokes::calm(std::chrono::nanoseconds now) const noexcept {
+  if (now < moves_until_) return 0.0;
+  // A force that comes back and slowly moves the hand is no oscillation.
+  return std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
+}
+
+}  // namespace glissade::devices

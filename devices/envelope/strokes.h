@@ -1,0 +1,67 @@
+#pragma once
+
+/// Whether a hand rests in its contact or moves to and fro.
+
+#include <chrono>
+
+#include <Eigen/Geometry>
+
+#include "envelope/forces.h"
+#include "envelope/given_wrenches.h"
+#include "envelope/state_check.h"
+
+namespace glissade::devices {
+
+/// The rotation from A to B as a vector, small angles only.
+Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept;
+
+/// A pose that follows the measured one with a play, so that noise of the tracker is no motion.
+class PoseInPlay {
+ public:
+  /// `resolution` (m) of the measured position; 0: not known.
+  explicit PoseInPlay(double resolution) noexcept;
+
+  struct Step {
+    Eigen::Vector3d way;   ///< m
+    Eigen::Vector3d turn;  ///< rad
+  };
+
+  void start_at(const Eigen::Isometry3d& X_WH) noexcept { X_WH_ = X_WH; }
+  Step follow(const Eigen::Isometry3d& X_WH) noexcept;
+
+ private:
+  double play_;  // m
+  Eigen::Isometry3d X_WH_ = Eigen::Isometry3d::Identity();
+};
+
+/// The work that came from the hand and went to it, in about the last half second.
+class Strokes {
+ public:
+  explicit Strokes(double resolution) noexcept : pose_(resolution) {}
+
+  /// A motion of so many seconds under these wrenches. `wanted` tells along what the hand moves.
+  void observe(const BookedMotion& motion, double seconds, const GivenWrenches& given, const Forces& wanted) noexcept;
+
+  /// What the hand put in (J), by the measured motion.
+  void book(double change) noexcept;
+
+  void forget(double dt) noexcept;
+
+  /// 1: nothing goes to and fro. 0: more than 10 mJ do, or the hand moves along the force.
+  double calm(std::chrono::nanoseconds now) const noexcept;
+
+  /// Whether the hand rests, and puts in no less than it gets. An oscillation that feeds on the device gets more.
+  bool puts_in(std::chrono::nanoseconds now) const noexcept { return now >= moves_until_ && balance_ > 0.0; }
+
+ private:
+  PoseInPlay pose_;
+  std::chrono::nanoseconds last_{0};                // measurement of the glove up to which it was observed
+  Eigen::Vector3d v_WH_ = Eigen::Vector3d::Zero();  // mean velocity of the pose in play, m/s
+  Eigen::Vector3d w_WH_ = Eigen::Vector3d::Zero();  // rad/s
+  double came_ = 0.0;                               // J
+  double went_ = 0.0;
+  double balance_ = 0.0;                     // what came less what went, by the measured motion
+  std::chrono::nanoseconds moves_until_{0};  // up to then the hand does not count as at rest
+};
+
+}  // namespace glissade::devices
