@@ -128,7 +128,9 @@ struct DeviceDescriptor {
   double rotational_damping = 0.0;    ///< viscous friction against rotation
   double joint_damping = 0.0;         ///< viscous friction of each finger joint
   double friction = 0.0;              ///< Coulomb friction against translation, N
+  double joint_friction = 0.0;        ///< Coulomb friction of each finger joint, Nm
   double resolution = 0.0;            ///< smallest step, or standard deviation, of the measured position
+  double joint_resolution = 0.0;      ///< smallest step of the measured joint angles
   std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, beyond the period and the link
   /// Largest rates of change: of the force (N/s), the torque and each joint torque (Nm/s). 0: from zero to the maximum
   /// in seven periods of the device, and in two for joint torques (`joint_torque_rate`).

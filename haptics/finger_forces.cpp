@@ -46,8 +46,10 @@ FingerHand finger_hand(const grasping::HandModel& hand) {
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept {
   const double wanted = device.max_joint_torque / kFullTorque_rad;
+  const bool has_steps = device.joint_friction > 0.0 && device.joint_resolution > 0.0;
+  const double without_buzz = has_steps ? 2.0 * device.joint_friction / device.joint_resolution : wanted;
   return std::min(
-      {wanted, devices::joint_torque_rate(device) / kFastestFinger_rad_per_s,
+      {wanted, without_buzz, devices::joint_torque_rate(device) / kFastestFinger_rad_per_s,
        devices::passive_limit(device, device.joint_damping, wanted, devices::lag_of(device, period, link_delay))});
 }
 

@@ -45,7 +45,8 @@ FingerHand finger_hand(const grasping::HandModel& hand);
 /// (`passive_stiffness`). A glove that does not tell its `joint_damping` is taken to have just as
 /// much as the full stiffness needs without a link. A torque that may change by r Nm/s (`devices::joint_torque_rate`)
 /// lags behind a finger that taps quickly, and would feed its rattling: so the stiffness is at most r / (6 rad/s).
-/// Real-time safe.
+/// Where the angles are measured in steps, nothing damps a finger within a step: so it is also at most twice the
+/// joint's Coulomb friction by the step. Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 

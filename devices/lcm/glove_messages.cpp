@@ -60,7 +60,9 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   use(message.rotational_damping_Nm_s_per_rad, descriptor.rotational_damping);
   use(message.joint_damping_Nm_s_per_rad, descriptor.joint_damping);
   use(message.friction_N, descriptor.friction);
+  use(message.joint_friction_Nm, descriptor.joint_friction);
   use(message.resolution_m, descriptor.resolution);
+  use(message.joint_resolution_rad, descriptor.joint_resolution);
   use(message.max_force_rate_N_per_s, descriptor.max_force_rate);
   use(message.max_torque_rate_Nm_per_s, descriptor.max_torque_rate);
   use(message.max_joint_torque_rate_Nm_per_s, descriptor.max_joint_torque_rate);

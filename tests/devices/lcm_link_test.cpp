@@ -58,6 +58,8 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   descriptor.name = "a glove whose name has more than 31 letters";
   descriptor.max_mean_force = 4.0;
   descriptor.joint_damping = 0.03;
+  descriptor.joint_friction = 0.004;
+  descriptor.joint_resolution = 2e-3;
   descriptor.frozen = milliseconds(50);
   LcmGloveHost host(bus, descriptor, {.device = 3, .side = hands::HandSide::kLeft});
   GloveSearch search(bus);
@@ -77,6 +79,8 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   EXPECT_EQ(found->descriptor.name, "a glove whose name has more tha");
   EXPECT_EQ(found->descriptor.max_mean_force, 4.0);
   EXPECT_EQ(found->descriptor.joint_damping, 0.03);
+  EXPECT_EQ(found->descriptor.joint_friction, 0.004);
+  EXPECT_EQ(found->descriptor.joint_resolution, 2e-3);
   EXPECT_EQ(found->descriptor.frozen, milliseconds(50));
   EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
   EXPECT_EQ(found->descriptor.update_rate, 1000.0);

@@ -349,5 +349,39 @@ TEST(FingerStiffness, GivesTheLargestTorqueWithinADegreeWhereThatIsPassive) {
   EXPECT_DOUBLE_EQ(finger_stiffness(device, milliseconds(1), milliseconds(50)), wanted * 0.5 / 50.5);
 }
 
+/// The greatest change of the torque in the last half of two seconds in which a finger with Coulomb friction presses
+/// with 0.3 Nm on a spring that knows its angle in steps.
+double buzz(double stiffness, const devices::DeviceDescriptor& device) {
+  constexpr double kInertia = 1e-4;  // kg m²
+  constexpr double kStep_s = 1e-5;
+  double angle = 0.0;
+  double speed = 0.0;
+  double torque = 0.0;
+  double least = 1e9;
+  double greatest = -1e9;
+  for (int i = 0; i < 200'000; ++i) {
+    if (i % 100 == 0) torque = -stiffness * device.joint_resolution * std::floor(angle / device.joint_resolution);
+    const double friction = device.joint_friction / kInertia * kStep_s;
+    speed = (speed + (0.3 + torque) / kInertia * kStep_s) / (1.0 + device.joint_damping / kInertia * kStep_s);
+    speed -= std::clamp(speed, -friction, friction);
+    angle += kStep_s * speed;
+    if (i < 100'000) continue;
+    least = std::min(least, torque);
+    greatest = std::max(greatest, torque);
+  }
+  return greatest - least;
+}
+
+TEST(FingerStiffness, OfAnglesInStepsIsAsGreatAsTheFrictionCanCalm) {
+  devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  device.joint_resolution = 5e-3;
+  for (const double friction : {0.01, 0.02, 0.05}) {
+    device.joint_friction = friction;
+    const double stiffness = finger_stiffness(device, milliseconds(1), nanoseconds(0));
+    EXPECT_EQ(buzz(stiffness, device), 0.0) << friction;
+    EXPECT_GT(buzz(8.0 * stiffness, device), 0.0) << friction;
+  }
+}
+
 }  // namespace
 }  // namespace glissade::haptics
