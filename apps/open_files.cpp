@@ -6,10 +6,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/geometry/mesh_import.h>
 
 namespace glissade::apps {

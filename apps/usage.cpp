@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
 

@@ -23,14 +23,15 @@ endfunction()
 #   SOURCES  its sources; those in its subfolders are private rooms
 #   DEPENDS  targets that users of the component see
 #   PRIVATE_DEPENDS  targets that only its sources see
-#   NOT_INSTALLED  for the program, tests and benchmarks of this tree only)
+#   NOT_INSTALLED  for the program, tests and benchmarks of this tree only
+#   WITHOUT_HEADERS  installed for other components to link, but without its headers)
 #
 # Defines the library glissade_NAME with the alias glissade::NAME. Its include root is a directory link in the build tree,
 #   build/include/NAME/glissade/NAME -> the component's folder,
 # so that an include reads the same in the tree and installed, and an include of a component that is not among DEPENDS
 # fails to compile.
 function(glissade_add_component name)
-  cmake_parse_arguments(ARG "NOT_INSTALLED" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(ARG "NOT_INSTALLED;WITHOUT_HEADERS" "" "HEADERS;SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target glissade_${name})
   set(include_root ${PROJECT_BINARY_DIR}/include/${name})
   file(MAKE_DIRECTORY ${include_root}/glissade)
@@ -39,7 +40,18 @@ function(glissade_add_component name)
   add_library(${target} ${ARG_SOURCES})
   add_library(glissade::${name} ALIAS ${target})
   list(TRANSFORM ARG_HEADERS PREPEND ${include_root}/glissade/${name}/)
-  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${ARG_HEADERS})
+  if(ARG_WITHOUT_HEADERS)
+    # The set of a target that is exported would have to be installed.
+    target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${include_root}>)
+    set_property(GLOBAL APPEND PROPERTY glissade_components_without_headers ${name})
+    add_library(${target}_headers INTERFACE)
+    target_sources(${target}_headers INTERFACE FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${ARG_HEADERS})
+    target_link_libraries(${target}_headers INTERFACE ${target})
+    set_target_properties(${target}_headers PROPERTIES VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
+  else()
+    target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${ARG_HEADERS})
+    set(header_set FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  endif()
   # Headers of rooms are included with quotes, by their path in the component: "ROOM/header.h".
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   list(TRANSFORM ARG_PRIVATE_DEPENDS REPLACE "^glissade_base$" "$<BUILD_INTERFACE:glissade_base>")
@@ -70,7 +82,7 @@ function(glissade_add_component name)
     glissade_install_component(${name}
       ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
       LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+      ${header_set})
   endif()
 endfunction()
 

@@ -1,6 +1,5 @@
 # What only this tree needs: warnings, the libraries of the program, and ways to compile less.
 find_package(CLI11 REQUIRED)
-find_package(yaml-cpp REQUIRED)
 
 function(glissade_set_warnings target)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion

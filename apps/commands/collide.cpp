@@ -15,14 +15,14 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/load_or_build_tree.h>
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/csv.h>
 #include <glissade/apps/files/mesh_bounds.h>
-#include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/poses_file.h>
 
 namespace glissade::apps {
 

@@ -13,9 +13,8 @@
 #include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/durations.h>
-#include <glissade/apps/files/file_checks.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/lcm_option.h>
@@ -29,6 +28,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {

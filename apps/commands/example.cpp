@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <stdexcept>
@@ -11,9 +10,7 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/example_files.h>
-#include <glissade/apps/files/file_checks.h>
-#include <glissade/apps/files/text_file.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 namespace glissade::apps {
 
@@ -30,32 +27,16 @@ constexpr const char* kExampleFooter =
     "  glissade example\n"
     "  glissade example first_steps && cd first_steps && glissade info motor.obj";
 
-bool is_there(const std::string& path) {
-  return std::filesystem::exists(path);
-}
-
-void write_example(const std::string& path, const std::string& text) {
-  std::ofstream out = open_output(path);
-  out << text << std::flush;
-  if (!out) throw std::runtime_error(path + ": not everything could be written");
-}
-
 int write_examples(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error) throw std::invalid_argument(folder + ": cannot make this folder: " + error.message());
-  const std::vector<ExampleFile> files = example_files();
-  const auto path_of = [&](const ExampleFile& file) { return (std::filesystem::path(folder) / file.name).string(); };
-  for (const ExampleFile& file : files) {
-    check_output(path_of(file));
-    if (is_there(path_of(file)) && read_text_file(path_of(file)) != file.text) {
-      throw std::invalid_argument(path_of(file) + ": is there already, with another content; name another folder");
-    }
-  }
-  for (const ExampleFile& file : files) {
-    if (!is_there(path_of(file))) write_example(path_of(file), file.text);
-    std::cout << path_of(file) << '\n';
-  }
+  std::vector<TextFile> files = example_files();
+  for (TextFile& file : files)
+    file.path = (std::filesystem::path(folder) / file.path).string();
+  write_new_files(files);
+  for (const TextFile& file : files)
+    std::cout << file.path << '\n';
   return 0;
 }
 

@@ -3,17 +3,15 @@
 /// The files of `glissade example`: scenes with the hands that move in them, meshes, and poses, with which the examples
 /// of every command's help work.
 
-#include <string>
 #include <vector>
+
+#include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 namespace glissade::apps {
 
-struct ExampleFile {
-  std::string name;  ///< without a folder
-  std::string text;
-};
-
-/// All of them. The scenes are those of examples/scenes when the program was built. Cost: some milliseconds.
-std::vector<ExampleFile> example_files();
+/// All of them, their paths without a folder. The scenes are those of examples/scenes when the program was built. Cost:
+/// some milliseconds.
+std::vector<TextFile> example_files();
 
 }  // namespace glissade::apps

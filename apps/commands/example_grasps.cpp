@@ -9,9 +9,9 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/commands/example_grasps.h>
-#include <glissade/apps/files/csv_columns.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/glove_device.h>
+#include <glissade/files/csv_columns.h>
 #include <glissade/shapes/shape_catalog.h>
 
 namespace glissade::apps {
@@ -143,8 +143,8 @@ std::string scene_with(const Thing& thing, const Isometry3d& X_WB) {
 
 }  // namespace
 
-std::vector<ExampleFile> example_grasps() {
-  std::vector<ExampleFile> files;
+std::vector<TextFile> example_grasps() {
+  std::vector<TextFile> files;
   for (const Thing& thing : kThings) {
     const Isometry3d X_WB = pose_of(thing);
     const std::string name = "grasp_" + std::string(thing.shape);

@@ -13,13 +13,13 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/obj_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/record/recorded_moment.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/viewer/scene_model.h>
 #include <glissade/viewer/view_scene.h>
 

@@ -10,9 +10,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/file_checks.h>
-#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/run/glove_watch.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/machine_check.h>
@@ -22,6 +20,8 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
 #include <glissade/devices/simulated_glove_service.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/realtime/periodic_thread.h>
 #include <glissade/realtime/spsc_ring.h>
 

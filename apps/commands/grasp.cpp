@@ -19,12 +19,10 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/scene_warnings.h>
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/file_checks.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/say.h>
@@ -36,6 +34,8 @@
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/contact/spring.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/haptics/finger_forces.h>
 

@@ -13,7 +13,6 @@
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/scene_warnings.h>
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -26,6 +25,7 @@
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {

@@ -17,8 +17,6 @@
 #include <glissade/apps/commands/slide_side_by_side.h>
 #include <glissade/apps/commands/slide_summary.h>
 #include <glissade/apps/commands/slide_tables.h>
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/followed_trajectory.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
@@ -32,6 +30,8 @@
 #include <glissade/apps/usage.h>
 #include <glissade/apps/view/slide_replay.h>
 #include <glissade/contact/sliding.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {

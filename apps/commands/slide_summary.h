@@ -5,7 +5,8 @@
 #include <string>
 
 #include <glissade/apps/commands/slide_check.h>
-#include <glissade/apps/files/csv.h>
+#include <glissade/apps/text.h>
+#include <glissade/files/csv.h>
 
 namespace glissade::apps {
 

@@ -8,9 +8,10 @@
 #include <string>
 
 #include <glissade/apps/commands/slide_contacts.h>
-#include <glissade/apps/files/csv.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/apps/text.h>
 #include <glissade/contact/sliding.h>
+#include <glissade/files/csv.h>
 #include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {

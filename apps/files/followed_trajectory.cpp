@@ -2,7 +2,8 @@
 #include <vector>
 
 #include <glissade/apps/files/followed_trajectory.h>
-#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/files/hand_script.h>
+#include <glissade/files/trajectory_file.h>
 
 namespace glissade::apps {
 

@@ -8,7 +8,8 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/files/csv.h>
+#include <glissade/apps/text.h>
+#include <glissade/files/csv.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <string_view>
 
-#include <glissade/apps/files/csv.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
-#include <glissade/apps/files/text_file.h>
-#include <glissade/apps/files/trajectory_file.h>
-#include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/text_file.h>
+#include <glissade/files/trajectory_file.h>
+#include <glissade/files/yaml_reader.h>
 
 namespace glissade::apps {
 

@@ -4,6 +4,7 @@
 
 #include <glissade/apps/files/obj_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/obj_text.h>
 
 namespace glissade::apps {
 
@@ -17,18 +18,7 @@ class ObjText {
     std::replace_if(
         name.begin(), name.end(), [](char c) { return (c >= 0 && c <= ' ') || c == '\\'; }, '_');
     text_ += "g " + name + '\n';
-    for (const Eigen::Vector3d& vertex : mesh.vertices) {
-      text_ += 'v';
-      for (const double coordinate : Eigen::Vector3d(X_WB * vertex))
-        text_ += ' ' + format_number(coordinate);
-      text_ += '\n';
-    }
-    for (const auto& triangle : mesh.triangles) {
-      text_ += 'f';
-      for (const std::int32_t vertex : triangle)
-        text_ += ' ' + std::to_string(first_ + static_cast<std::size_t>(vertex));
-      text_ += '\n';
-    }
+    append_obj(text_, geometry::transformed(mesh, X_WB), first_);
     first_ += mesh.vertices.size();
   }
 
@@ -36,7 +26,7 @@ class ObjText {
 
  private:
   std::string text_;
-  std::size_t first_ = 1;  // number of the next vertex; OBJ counts from 1
+  std::size_t first_ = 1;  // number of the next vertex
 };
 
 }  // namespace

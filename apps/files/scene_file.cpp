@@ -5,17 +5,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/did_you_mean.h>
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/files/mesh_bounds.h>
-#include <glissade/apps/files/pose_rules.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/text_file.h>
-#include <glissade/apps/files/trajectory_file.h>
-#include <glissade/apps/files/yaml_reader.h>
 #include <glissade/apps/text.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/sliding_rules.h>
+#include <glissade/files/did_you_mean.h>
+#include <glissade/files/file_checks.h>
+#include <glissade/files/pose_rules.h>
+#include <glissade/files/text_file.h>
+#include <glissade/files/trajectory_file.h>
+#include <glissade/files/yaml_reader.h>
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/shapes/shape_catalog.h>
 

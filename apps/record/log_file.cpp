@@ -1,7 +1,8 @@
 #include <filesystem>
 
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/log_file.h>
+#include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
 
 namespace glissade::apps {
 

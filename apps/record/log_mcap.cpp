@@ -8,7 +8,6 @@
 #include <utility>
 
 #include <glissade/apps/durations.h>
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/log_mcap.h>
 #include <glissade/apps/record/mcap_entities.h>
@@ -18,8 +17,10 @@
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/record/recorded_session.h>
 #include <glissade/apps/run/force_reason.h>
+#include <glissade/apps/text.h>
 #include <glissade/apps/view/say_if_simplified.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/haptics/recording.h>
 #include <glissade/viewer/view_scene.h>

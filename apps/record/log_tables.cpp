@@ -7,14 +7,15 @@
 #include <vector>
 
 #include <glissade/apps/durations.h>
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/file_checks.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/record/log_file.h>
 #include <glissade/apps/record/log_tables.h>
 #include <glissade/apps/run/force_reason.h>
 #include <glissade/apps/say.h>
+#include <glissade/apps/text.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/csv_columns.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/recording.h>

@@ -1,9 +1,10 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/mcap_writer.h>
+#include <glissade/apps/text.h>
 #include <glissade/base/byte_order.h>
+#include <glissade/files/file_checks.h>
 
 namespace glissade::apps {
 

@@ -1,7 +1,8 @@
 #include <exception>
 
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/record/run_recorders.h>
+#include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
 
 namespace glissade::apps {
 

@@ -9,9 +9,9 @@
 #include <sodium.h>
 #include <unistd.h>
 
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
 #include <glissade/viewer/page.h>
 
 namespace glissade::apps {

@@ -8,10 +8,10 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/apps/files/file_checks.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/machine_check.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
 
 namespace glissade::apps {
 

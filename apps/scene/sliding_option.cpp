@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>

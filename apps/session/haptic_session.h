@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/record/run_recorders.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/scene/haptic_scene.h>

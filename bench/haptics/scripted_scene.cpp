@@ -3,9 +3,9 @@
 #include <chrono>
 
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
+#include <glissade/files/trajectory_file.h>
 
 namespace glissade::bench {
 namespace {
@@ -43,7 +43,8 @@ SlidingScene car_door_scene(double speed) {
   return scripted(
       "car-door",
       apps::parse_scene(std::string(apps::embedded_scene_yaml(apps::Demonstration::kCarDoor)), "car_door.yaml", "."),
-      apps::parse_trajectory(apps::embedded_scene_script(apps::Demonstration::kCarDoor), "car_door_script.csv"), speed);
+      files::parse_trajectory(apps::embedded_scene_script(apps::Demonstration::kCarDoor), "car_door_script.csv"),
+      speed);
 }
 
 }  // namespace glissade::bench

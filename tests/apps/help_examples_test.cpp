@@ -8,8 +8,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
 #include "sanitizers.h"

@@ -7,7 +7,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/did_you_mean.h>
 #include <glissade/apps/text.h>
 
 #include "glissade_program.h"

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
 #include "sanitizers.h"

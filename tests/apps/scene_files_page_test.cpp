@@ -14,16 +14,16 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/files/poses_file.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/text_file.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/latency/latency_output.h>
 #include <glissade/apps/record/mcap_schemas.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/text.h>
 #include <glissade/contact/sliding.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/files/poses_file.h>
+#include <glissade/files/text_file.h>
+#include <glissade/files/trajectory_file.h>
 #include <glissade/geometry/pose_trajectory.h>
 #include <glissade/shapes/shape_catalog.h>
 

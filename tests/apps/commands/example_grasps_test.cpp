@@ -7,8 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/commands/example_grasps.h>
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
 #include "sanitizers.h"
@@ -24,9 +24,9 @@ using test_support::rows_of;
 
 std::vector<std::string> things_to_grasp() {
   std::vector<std::string> things;
-  for (const ExampleFile& file : example_grasps()) {
-    const std::size_t end = file.name.find(".yaml");
-    if (end != std::string::npos) things.push_back(file.name.substr(6, end - 6));
+  for (const TextFile& file : example_grasps()) {
+    const std::size_t end = file.path.find(".yaml");
+    if (end != std::string::npos) things.push_back(file.path.substr(6, end - 6));
   }
   return things;
 }
@@ -41,8 +41,8 @@ class ExampleGrasp : public testing::TestWithParam<std::string> {};
 TEST_P(ExampleGrasp, EndsInAHold) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes minutes; the tests of grasps run through the same code";
   const test_support::TemporaryFolder folder;
-  for (const ExampleFile& file : example_grasps())
-    folder.write(file.name, file.text);
+  for (const TextFile& file : example_grasps())
+    folder.write(file.path, file.text);
   const std::string hands = folder.path("hands.csv");
   const std::string objects = folder.path("objects.csv");
   const ProgramResult run =

@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/reference/grid_check.h>

@@ -7,9 +7,9 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/glove_device.h>
+#include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"

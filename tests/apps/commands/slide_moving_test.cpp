@@ -8,8 +8,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"

@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/devices/event_log.h>
+#include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
 #include "pressing_scene.h"

@@ -13,9 +13,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/record/mcap_writer.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 #include "temporary_folder.h"
 

@@ -9,11 +9,11 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/text_file.h>
 #include <glissade/apps/record/replay_audiences.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 #include "page_client.h"
 #include "temporary_folder.h"

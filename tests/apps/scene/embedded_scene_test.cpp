@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/files/trajectory_file.h>
 #include <glissade/apps/scene/embedded_scene.h>
 
 namespace glissade::apps {

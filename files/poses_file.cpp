@@ -1,7 +1,7 @@
-#include <glissade/apps/files/pose_rules.h>
-#include <glissade/apps/files/poses_file.h>
+#include <glissade/files/pose_rules.h>
+#include <glissade/files/poses_file.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 std::vector<Eigen::Isometry3d> read_poses(const std::string& path) {
   const CsvTable table = read_csv(path, pose_columns());
@@ -17,4 +17,4 @@ Eigen::Isometry3d pose_from_row(const std::vector<double>& row, std::size_t firs
   return checked_pose({values[0], values[1], values[2]}, {values[3], values[4], values[5], values[6]}, where);
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -5,14 +5,14 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/csv_columns.h>
-#include <glissade/apps/files/file_checks.h>
-#include <glissade/apps/files/pose_rules.h>
-#include <glissade/apps/files/text_file.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/csv_columns.h>
+#include <glissade/files/file_checks.h>
+#include <glissade/files/pose_rules.h>
+#include <glissade/files/text.h>
+#include <glissade/files/text_file.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 namespace {
 
@@ -224,4 +224,4 @@ void CsvWriter::close() {
     throw std::runtime_error((path_ == "-" ? "standard output" : path_) + ": not everything could be written");
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

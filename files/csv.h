@@ -11,7 +11,7 @@
 
 #include <Eigen/Geometry>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// The rows of a CSV file; every value is finite.
 struct CsvTable {
@@ -88,4 +88,4 @@ class CsvWriter {
   std::ostream* out_;
 };
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -6,13 +6,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/text.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"
 
-namespace glissade::apps {
+namespace glissade::files {
 namespace {
 
 using test_support::expect_bad_input;
@@ -160,4 +160,4 @@ TEST(Text, QuotedTextStaysShortAndOnOneLine) {
 }
 
 }  // namespace
-}  // namespace glissade::apps
+}  // namespace glissade::files

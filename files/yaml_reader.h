@@ -9,7 +9,7 @@
 #include <Eigen/Core>
 #include <yaml-cpp/yaml.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// Reads the nodes of one file. Every function except `where` throws std::invalid_argument, beginning with
 /// `where(node)`.
@@ -48,4 +48,4 @@ class YamlReader {
   std::string text_;
 };
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -4,46 +4,13 @@
 #include <stdexcept>
 #include <vector>
 
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/poses_file.h>
-#include <glissade/apps/files/text_file.h>
-#include <glissade/apps/files/trajectory_file.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/text.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/text_file.h>
+#include <glissade/files/trajectory_file.h>
 
 namespace glissade::apps {
-
-namespace {
-
-std::chrono::nanoseconds time_of(double t_s, const std::string& where) {
-  constexpr double kLatestSeconds = 1e9;
-  if (std::abs(t_s) > kLatestSeconds) {
-    throw std::invalid_argument(where + ": column t_s: " + format_number(t_s) + " is beyond 1e9 s");
-  }
-  return std::chrono::nanoseconds(std::llround(t_s * 1e9));
-}
-
-}  // namespace
-
-geometry::TimedPose timed_pose(const std::vector<double>& row, const std::string& where,
-                               std::optional<std::chrono::nanoseconds> before) {
-  const std::chrono::nanoseconds time = time_of(row[0], where);
-  if (before && time <= *before) {
-    throw std::invalid_argument(where + ": column t_s: the time " + format_number(row[0]) + " does not rise above " +
-                                format_number(std::chrono::duration<double>(*before).count()) +
-                                " of the row before (to the nanosecond)");
-  }
-  return {time, pose_from_row(row, 1, where)};
-}
-
-geometry::PoseTrajectory trajectory_from(const CsvTable& table) {
-  std::vector<geometry::TimedPose> rows;
-  rows.reserve(table.rows.size());
-  for (std::size_t row = 0; row < table.rows.size(); ++row) {
-    const auto before = rows.empty() ? std::nullopt : std::optional(rows.back().time);
-    rows.push_back(timed_pose(table.rows[row], table.where(row), before));
-  }
-  return geometry::PoseTrajectory(rows);
-}
 
 std::vector<devices::TimedAngles> fingers_from(const CsvTable& table) {
   const auto first = static_cast<std::ptrdiff_t>(trajectory_columns().size());
@@ -111,14 +78,6 @@ void check_duration(std::chrono::nanoseconds duration, const std::string& file) 
   if (duration <= kLongest) return;
   const double duration_s = std::chrono::duration<double>(duration).count();
   throw std::invalid_argument(file + ": lasts " + format_number(duration_s) + " s, longer than a day (86400 s)");
-}
-
-geometry::PoseTrajectory read_trajectory(const std::string& path) {
-  return trajectory_from(read_csv(path, trajectory_columns()));
-}
-
-geometry::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source) {
-  return trajectory_from(parse_csv(text, source, trajectory_columns()));
 }
 
 }  // namespace glissade::apps

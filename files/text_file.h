@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <fstream>
 #include <string>
+#include <vector>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// Longer than any trajectory of a day.
 inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 34U;
@@ -15,7 +16,17 @@ inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 34U;
 /// longer than `max_bytes` or cannot be opened.
 std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
+struct TextFile {
+  std::string path;
+  std::string text;
+};
+
 /// The file's bytes. Throws as `open_text_file`, and when it cannot be read.
 std::string read_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
-}  // namespace glissade::apps
+/// Writes files. One that is there already is kept if it has the same content; if one has another, nothing is written.
+/// Throws std::invalid_argument for such a file, for one that cannot be read, and as `open_output`; std::runtime_error
+/// when not everything could be written.
+void write_new_files(const std::vector<TextFile>& files);
+
+}  // namespace glissade::files

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// Angles that stand for a quaternion; docs/file_formats.md has their order.
 inline constexpr std::array<std::string_view, 3> kAngleColumns{"roll_deg", "pitch_deg", "yaw_deg"};
@@ -35,4 +35,4 @@ std::vector<std::string> hand_trajectory_columns();
 /// reads"; empty if no command reads such a table.
 std::string told_table(std::string_view header);
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -6,7 +6,7 @@
 
 #include <Eigen/Geometry>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// Largest coordinate for which collision queries are exact.
 inline constexpr double kLargestCoordinate_m = 1e9;
@@ -20,4 +20,4 @@ Eigen::Quaterniond rotation_of(double roll_deg, double pitch_deg, double yaw_deg
 /// 1 by more than 1e-3, and when a coordinate of the position is beyond ±kLargestCoordinate_m.
 Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& q, const std::string& where);
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -2,10 +2,10 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <glissade/apps/files/pose_rules.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/pose_rules.h>
+#include <glissade/files/text.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 namespace {
 
@@ -45,4 +45,4 @@ Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Qua
   return X;
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <system_error>
 
-#include <glissade/apps/text.h>
+#include <glissade/files/text.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 namespace {
 
@@ -24,10 +24,14 @@ std::optional<double> parse_number(std::string_view text) {
   return value;
 }
 
-std::string format_number(double value) {
+std::string exact_number(double value) {
   std::array<char, 32> buffer{};
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value + 0.0);
+  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
   return {buffer.data(), result.ptr};
+}
+
+std::string format_number(double value) {
+  return exact_number(value + 0.0);
 }
 
 std::string fixed_text(double value, int decimals) {
@@ -76,4 +80,4 @@ std::string hexadecimal(std::uint64_t number) {
   return text;
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

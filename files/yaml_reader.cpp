@@ -6,11 +6,11 @@
 
 #include <yaml-cpp/depthguard.h>
 
-#include <glissade/apps/did_you_mean.h>
-#include <glissade/apps/files/yaml_reader.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/did_you_mean.h>
+#include <glissade/files/text.h>
+#include <glissade/files/yaml_reader.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 namespace {
 
@@ -131,4 +131,4 @@ Eigen::VectorXd YamlReader::numbers(const YAML::Node& node, const std::string& k
   return values;
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -4,12 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/files/poses_file.h>
+#include <glissade/files/poses_file.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"
 
-namespace glissade::apps {
+namespace glissade::files {
 namespace {
 
 using test_support::expect_bad_input;
@@ -79,4 +79,4 @@ TEST(PosesFile, AWrongRowIsAnError) {
 }
 
 }  // namespace
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Files of timed poses: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times; for a hand with a column `grip`, or with
-/// the angles of its joints.
+/// Files of what a simulated hand is to do: timed poses, as of a trajectory, with a column `grip`, or with the angles
+/// of the joints.
 
 #include <chrono>
 #include <optional>
@@ -9,34 +9,20 @@
 #include <string_view>
 #include <vector>
 
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/csv_columns.h>
+#include <glissade/apps/text.h>
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/csv_columns.h>
 #include <glissade/geometry/pose_trajectory.h>
 
 namespace glissade::apps {
 
-/// A row whose first columns are those of a trajectory, `where` it stands in its file, and the time of the row before,
-/// if there is one. Throws as `read_trajectory`.
-geometry::TimedPose timed_pose(const std::vector<double>& row, const std::string& where,
-                               std::optional<std::chrono::nanoseconds> before);
-
-/// The trajectory of all rows of a table whose first columns are those of a trajectory. Throws as `read_trajectory`.
-geometry::PoseTrajectory trajectory_from(const CsvTable& table);
 /// The joint angles of all rows, from the columns after those of a trajectory.
 std::vector<devices::TimedAngles> fingers_from(const CsvTable& table);
 
 /// Throws std::invalid_argument for a file that lasts longer than a day, which gives some 20 GB of rows:
 /// that is an error in the unit of t_s.
 void check_duration(std::chrono::nanoseconds duration, const std::string& file);
-
-/// Reads a trajectory; times are rounded to nanoseconds.
-/// Throws std::invalid_argument, naming file, line and value, when a time does not exceed that of the row before or is
-/// beyond ±1e9 s, and for all that `read_csv` and `checked_pose` reject.
-geometry::PoseTrajectory read_trajectory(const std::string& path);
-
-/// The same for a text in memory; `source` replaces the file's name in messages.
-geometry::PoseTrajectory parse_trajectory(std::string_view text, const std::string& source);
 
 /// What a simulated hand is to do.
 struct HandScript {

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <array>
 
-#include <glissade/apps/files/csv_columns.h>
-#include <glissade/devices/glove_device.h>
+#include <glissade/files/csv_columns.h>
+#include <glissade/hands/hand.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 std::string header_of(const std::vector<std::string>& columns) {
   std::string header;
@@ -68,4 +68,4 @@ std::string told_table(std::string_view header) {
   return "";
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

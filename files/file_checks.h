@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// Before a file is read: it must be a regular file. Notes it, so that no output takes its place.
 void check_input(const std::string& path);
@@ -28,4 +28,4 @@ void check_recording(const std::string& path, bool overwrites);
 /// output.
 void check_distinct(const std::vector<std::pair<std::string, std::string>>& outputs);
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -7,10 +7,10 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/files/csv.h>
-#include <glissade/apps/files/csv_columns.h>
+#include <glissade/files/csv.h>
+#include <glissade/files/csv_columns.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// The poses X_AB of a file, in its order.
 /// Throws std::invalid_argument, naming file, line and value: see `read_csv` and `checked_pose`.
@@ -19,4 +19,4 @@ std::vector<Eigen::Isometry3d> read_poses(const std::string& path);
 /// The pose in a row whose `pose_columns()` begin at `first_column`. Throws like `checked_pose`.
 Eigen::Isometry3d pose_from_row(const std::vector<double>& row, std::size_t first_column, const std::string& where);
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

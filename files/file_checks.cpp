@@ -7,10 +7,10 @@
 
 #include <unistd.h>
 
-#include <glissade/apps/files/file_checks.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/file_checks.h>
+#include <glissade/files/text.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 namespace {
 
@@ -113,4 +113,4 @@ void check_distinct(const std::vector<std::pair<std::string, std::string>>& outp
   }
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

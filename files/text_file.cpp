@@ -3,10 +3,10 @@
 #include <stdexcept>
 #include <system_error>
 
-#include <glissade/apps/files/file_checks.h>
-#include <glissade/apps/files/text_file.h>
+#include <glissade/files/file_checks.h>
+#include <glissade/files/text_file.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes) {
   check_input(path);
@@ -31,4 +31,22 @@ std::string read_text_file(const std::string& path, std::uintmax_t max_bytes) {
   return text;
 }
 
-}  // namespace glissade::apps
+void write_new_files(const std::vector<TextFile>& files) {
+  std::vector<const TextFile*> missing;
+  std::error_code ignored;  // check_output tells what is wrong
+  for (const TextFile& file : files) {
+    if (!std::filesystem::exists(file.path, ignored)) {
+      check_output(file.path);
+      missing.push_back(&file);
+    } else if (read_text_file(file.path) != file.text) {
+      throw std::invalid_argument(file.path + ": is there already, with another content; name another folder");
+    }
+  }
+  for (const TextFile* file : missing) {
+    std::ofstream out = open_output(file->path);
+    out << file->text << std::flush;
+    if (!out) throw std::runtime_error(file->path + ": not everything could be written");
+  }
+}
+
+}  // namespace glissade::files

@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <cstddef>
 
-#include <glissade/apps/did_you_mean.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/did_you_mean.h>
+#include <glissade/files/text.h>
 
-namespace glissade::apps {
+namespace glissade::files {
 namespace {
 
 /// The number of slips between two words.
@@ -45,4 +45,4 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string>& 
   return best == nullptr ? "" : " (did you mean " + in_quotes(*best) + "?)";
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

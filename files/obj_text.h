@@ -1,0 +1,16 @@
+#pragma once
+
+/// Meshes as Wavefront OBJ.
+
+#include <cstddef>
+#include <string>
+
+#include <glissade/geometry/triangle_mesh.h>
+
+namespace glissade::files {
+
+/// Appends vertices and triangles. `first` is the number of the first vertex in the file, where OBJ counts from 1.
+/// Numbers read back as exactly those of the mesh, zeros with their sign.
+void append_obj(std::string& text, const geometry::TriangleMesh& mesh, std::size_t first = 1);
+
+}  // namespace glissade::files
