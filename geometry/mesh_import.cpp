@@ -70,9 +70,8 @@ bool has_two_triangles_at_every_edge(const TriangleMesh& mesh) {
   return true;
 }
 
-}  // namespace
-
-ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
+/// What the file has, in metres.
+TriangleSoup read_soup(const std::filesystem::path& path, double scale) {
   if (!std::isfinite(scale) || scale <= 0) {
     std::ostringstream message;
     message << "The scale must be positive and finite, but is " << scale;
@@ -84,6 +83,13 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
     vertex *= scale;
   }
   check_used_vertices(path, soup.mesh);
+  return soup;
+}
+
+}  // namespace
+
+ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
+  TriangleSoup soup = read_soup(path, scale);
   ImportedMesh result;
   result.warnings = std::move(soup.warnings);
   result.polygons_triangulated = soup.polygons_triangulated;
@@ -97,6 +103,13 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
     reject(path, "None of its " + std::to_string(result.degenerate_triangles) + " triangles has an area");
   }
   return result;
+}
+
+ImportedMesh import_unwelded_mesh(const std::filesystem::path& path, double scale) {
+  TriangleSoup soup = read_soup(path, scale);
+  return {.mesh = std::move(soup.mesh),
+          .polygons_triangulated = soup.polygons_triangulated,
+          .warnings = std::move(soup.warnings)};
 }
 
 }  // namespace glissade::geometry

@@ -13,7 +13,7 @@ namespace glissade::geometry {
 
 /// An imported mesh, and counts of the changes made on import.
 struct ImportedMesh {
-  TriangleMesh mesh;                       ///< welded; no triangle is degenerate
+  TriangleMesh mesh;                       ///< of `import_mesh`: welded, and no triangle is degenerate
   std::int64_t degenerate_triangles = 0;   ///< triangles without area, left out of `mesh`
   bool closed_by_degenerate = false;       ///< with those triangles, exactly two would meet at every edge
   std::int64_t polygons_triangulated = 0;  ///< faces of more than three corners in the file
@@ -38,5 +38,9 @@ struct ImportedMesh {
 /// whose buffers lie outside its folder; and for a scale that is not positive and finite. The message is one line that
 /// names the file and the faulty line, element or value. May block on the disk.
 ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
+
+/// The same, but vertices and triangles are as the file has them: nothing is welded or dropped. Vertices that no
+/// triangle uses need not be finite.
+ImportedMesh import_unwelded_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 }  // namespace glissade::geometry

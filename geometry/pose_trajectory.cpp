@@ -2,6 +2,7 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <glissade/geometry/pose_trajectory.h>
 
@@ -29,18 +30,18 @@ void check_row(const std::vector<TimedPose>& rows, std::size_t i) {
 
 }  // namespace
 
-PoseTrajectory::PoseTrajectory(const std::vector<TimedPose>& rows) {
-  if (rows.empty()) throw std::invalid_argument("A trajectory needs at least one row.");
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    check_row(rows, i);
-    times_.push_back(rows[i].time);
-    p_WB_.push_back(rows[i].X_WB.translation());
-    q_WB_.push_back(Eigen::Quaterniond(rows[i].X_WB.linear()).normalized());
+PoseTrajectory::PoseTrajectory(std::vector<TimedPose> rows) : rows_(std::move(rows)) {
+  if (rows_.empty()) throw std::invalid_argument("A trajectory needs at least one row.");
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    check_row(rows_, i);
+    q_WB_.push_back(Eigen::Quaterniond(rows_[i].X_WB.linear()).normalized());
   }
 }
 
 std::size_t PoseTrajectory::piece_at(std::chrono::nanoseconds time) const noexcept {
-  return static_cast<std::size_t>(std::upper_bound(times_.begin(), times_.end(), time) - times_.begin()) - 1;
+  const auto next = std::upper_bound(rows_.begin(), rows_.end(), time,
+                                     [](std::chrono::nanoseconds t, const TimedPose& row) { return t < row.time; });
+  return static_cast<std::size_t>(next - rows_.begin()) - 1;
 }
 
 Eigen::Isometry3d PoseTrajectory::pose_at(std::chrono::nanoseconds time) const noexcept {
@@ -50,19 +51,23 @@ Eigen::Isometry3d PoseTrajectory::pose_at(std::chrono::nanoseconds time) const n
     X_WB.linear() = q_WB.toRotationMatrix();
     return X_WB;
   };
-  if (time <= first_time()) return set(p_WB_.front(), q_WB_.front());
-  if (time >= last_time()) return set(p_WB_.back(), q_WB_.back());
+  if (time <= first_time()) return set(rows_.front().X_WB.translation(), q_WB_.front());
+  if (time >= last_time()) return set(rows_.back().X_WB.translation(), q_WB_.back());
   const std::size_t i = piece_at(time);
-  const double part = seconds(time - times_[i]) / seconds(times_[i + 1] - times_[i]);
-  return set(p_WB_[i] + part * (p_WB_[i + 1] - p_WB_[i]), q_WB_[i].slerp(part, q_WB_[i + 1]));
+  const TimedPose& from = rows_[i];
+  const TimedPose& to = rows_[i + 1];
+  const double part = seconds(time - from.time) / seconds(to.time - from.time);
+  return set(from.X_WB.translation() + part * (to.X_WB.translation() - from.X_WB.translation()),
+             q_WB_[i].slerp(part, q_WB_[i + 1]));
 }
 
 FrameVelocity PoseTrajectory::velocity_at(std::chrono::nanoseconds time) const noexcept {
   if (time < first_time() || time >= last_time()) return {};
   const std::size_t i = piece_at(time);
-  const double duration = seconds(times_[i + 1] - times_[i]);
+  const double duration = seconds(rows_[i + 1].time - rows_[i].time);
   const Eigen::AngleAxisd turn_W(q_WB_[i + 1] * q_WB_[i].conjugate());
-  return {(p_WB_[i + 1] - p_WB_[i]) / duration, turn_W.axis() * (turn_W.angle() / duration)};
+  return {(rows_[i + 1].X_WB.translation() - rows_[i].X_WB.translation()) / duration,
+          turn_W.axis() * (turn_W.angle() / duration)};
 }
 
 PoseTrajectory PoseTrajectory::time_scaled(std::chrono::nanoseconds duration) const {
@@ -70,16 +75,16 @@ PoseTrajectory PoseTrajectory::time_scaled(std::chrono::nanoseconds duration) co
     throw std::invalid_argument("The duration of a trajectory must be positive.");
   }
   PoseTrajectory scaled = *this;
-  const double factor = times_.size() > 1 ? seconds(duration) / seconds(this->duration()) : 1.0;
-  for (std::size_t i = 1; i < times_.size(); ++i) {
-    const double offset_ns = static_cast<double>((times_[i] - first_time()).count()) * factor;
-    scaled.times_[i] = first_time() + std::chrono::nanoseconds(std::llround(offset_ns));
-    if (scaled.times_[i] <= scaled.times_[i - 1]) {
+  const double factor = rows_.size() > 1 ? seconds(duration) / seconds(this->duration()) : 1.0;
+  for (std::size_t i = 1; i < rows_.size(); ++i) {
+    const double offset_ns = static_cast<double>((rows_[i].time - first_time()).count()) * factor;
+    scaled.rows_[i].time = first_time() + std::chrono::nanoseconds(std::llround(offset_ns));
+    if (scaled.rows_[i].time <= scaled.rows_[i - 1].time) {
       throw std::invalid_argument("The duration " + std::to_string(duration.count()) +
                                   " ns is too short for the rows of the trajectory.");
     }
   }
-  if (times_.size() > 1) scaled.times_.back() = first_time() + duration;
+  if (rows_.size() > 1) scaled.rows_.back().time = first_time() + duration;
   return scaled;
 }
 

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,10 +33,12 @@ class PoseTrajectory {
   /// time is not greater than the time of the row before, whose pose is not finite, or whose matrix R is not a
   /// rotation. An R counts as a rotation if every entry of RᵀR − 1 (1: the identity matrix) is at most 1e-3 in absolute
   /// value and R is not a reflection.
-  explicit PoseTrajectory(const std::vector<TimedPose>& rows);
+  explicit PoseTrajectory(std::vector<TimedPose> rows);
 
-  std::chrono::nanoseconds first_time() const noexcept { return times_.front(); }
-  std::chrono::nanoseconds last_time() const noexcept { return times_.back(); }
+  /// The rows, as they were given or scaled in time. Valid as long as the trajectory.
+  std::span<const TimedPose> rows() const noexcept { return rows_; }
+  std::chrono::nanoseconds first_time() const noexcept { return rows_.front().time; }
+  std::chrono::nanoseconds last_time() const noexcept { return rows_.back().time; }
   std::chrono::nanoseconds duration() const noexcept { return last_time() - first_time(); }
 
   /// The pose X_WB at `time`. Real-time safe; O(log rows).
@@ -56,9 +59,8 @@ class PoseTrajectory {
   /// last.
   std::size_t piece_at(std::chrono::nanoseconds time) const noexcept;
 
-  std::vector<std::chrono::nanoseconds> times_;
-  std::vector<Eigen::Vector3d> p_WB_;
-  std::vector<Eigen::Quaterniond> q_WB_;
+  std::vector<TimedPose> rows_;
+  std::vector<Eigen::Quaterniond> q_WB_;  // their rotations
 };
 
 }  // namespace glissade::geometry

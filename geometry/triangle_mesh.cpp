@@ -81,6 +81,13 @@ TriangleMesh weld(const TriangleMesh& mesh) {
   return welded;
 }
 
+Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh) {
+  Eigen::AlignedBox3d bounds;
+  for (const Eigen::Vector3d& vertex : mesh.vertices)
+    bounds.extend(vertex);
+  return bounds;
+}
+
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box) {
   std::vector<std::int32_t> inside;
   for (std::int32_t t = 0; t < std::ssize(mesh.triangles); ++t) {

@@ -51,6 +51,9 @@ TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 /// degenerate triangles, in their order. Drops vertices that no triangle uses, and numbers the others by first use.
 TriangleMesh weld(const TriangleMesh& mesh);
 
+/// The box round all vertices, along the axes of the mesh's frame; empty without vertices.
+Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh);
+
 /// Indices of the triangles with all three corners in the box, in ascending order.
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 

@@ -6,9 +6,7 @@ Eigen::Vector3d ViewScene::p_WO() const {
   if (p_WO_chosen) return *p_WO_chosen;
   Eigen::AlignedBox3d bounds_W;
   for (const ViewObject& object : objects) {
-    Eigen::AlignedBox3d bounds_B;
-    for (const Eigen::Vector3d& vertex : object.mesh->vertices)
-      bounds_B.extend(vertex);
+    const Eigen::AlignedBox3d bounds_B = geometry::bounds_of(*object.mesh);
     if (!bounds_B.isEmpty()) bounds_W.extend(object.X_WB * bounds_B.center());
   }
   return bounds_W.isEmpty() ? Eigen::Vector3d::Zero() : Eigen::Vector3d(bounds_W.center());

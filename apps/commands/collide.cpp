@@ -15,7 +15,6 @@
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/commands/load_or_build_tree.h>
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/say.h>
@@ -88,8 +87,8 @@ void add(const collision::MeshDistance& measured, CsvWriter& out) {
 /// Whether any pose brings the meshes as near as ten times the size of the larger one.
 bool any_is_near(const geometry::TriangleMesh& mesh_A, const geometry::TriangleMesh& mesh_B,
                  const std::vector<Eigen::Isometry3d>& poses_AB) {
-  const Eigen::AlignedBox3d a = bounds_of(mesh_A);
-  const Eigen::AlignedBox3d b = bounds_of(mesh_B);
+  const Eigen::AlignedBox3d a = geometry::bounds_of(mesh_A);
+  const Eigen::AlignedBox3d b = geometry::bounds_of(mesh_B);
   constexpr double kFar = 10.0;  // sizes
   const double near = kFar * std::max(a.diagonal().norm(), b.diagonal().norm());
   return std::any_of(poses_AB.begin(), poses_AB.end(),

@@ -21,7 +21,6 @@
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/files/hand_trajectory_file.h>
-#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/progress.h>
@@ -237,7 +236,7 @@ void warn_of_units(const std::string& file, const HandTrajectory& trajectory, co
   Eigen::AlignedBox3d positions;
   for (const SceneObject& object : scene.objects) {
     if (object.motion) return;  // it may come to the hand
-    const Eigen::AlignedBox3d box_B = bounds_of(*object.mesh);
+    const Eigen::AlignedBox3d box_B = geometry::bounds_of(*object.mesh);
     const Eigen::Isometry3d X_BW = object.X_WB.inverse(Eigen::Isometry);
     for (int i = 0; i <= kMoments; ++i) {
       const std::chrono::nanoseconds time = trajectory.first_time() + i * trajectory.duration() / kMoments;

@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include <glissade/apps/commands/size_warnings.h>
-#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/text.h>
 
 namespace glissade::apps {
@@ -69,7 +68,7 @@ SizesAround sizes_around(const Scene& file, const HapticScene& scene) {
 }  // namespace
 
 double size_of(const geometry::TriangleMesh& mesh) {
-  return bounds_of(mesh).sizes().maxCoeff();
+  return geometry::bounds_of(mesh).sizes().maxCoeff();
 }
 
 bool is_doubtful(double size_m, double scale) {
@@ -113,7 +112,7 @@ std::string doubt_of_positions(const Eigen::AlignedBox3d& positions, const Hapti
   if (!scene.moving.empty()) return "";  // something may lead the way
   Eigen::AlignedBox3d around;
   for (const viewer::ViewObject& object : scene.shown) {
-    const Eigen::AlignedBox3d box_B = bounds_of(*object.mesh);
+    const Eigen::AlignedBox3d box_B = geometry::bounds_of(*object.mesh);
     for (int corner = 0; corner < 8; ++corner)
       around.extend(object.X_WB * box_B.corner(static_cast<Eigen::AlignedBox3d::CornerType>(corner)));
   }

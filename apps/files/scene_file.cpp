@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/contact/contact_body.h>
@@ -95,7 +94,7 @@ class SceneReader {
   /// The limit is that of `contact::SlidingPart`, but the message names key and line.
   Eigen::Vector3d read_compliance_point(const YAML::Node& node, const geometry::TriangleMesh& mesh) const {
     const Eigen::Vector3d point = yaml_.numbers(node, "compliance_point_m", 3);
-    const Eigen::Vector3d center = bounds_of(mesh).center();
+    const Eigen::Vector3d center = geometry::bounds_of(mesh).center();
     double radius = 0.0;
     for (const Eigen::Vector3d& vertex : mesh.vertices)
       radius = std::max(radius, (vertex - center).norm());

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/files/mesh_bounds.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/viewed_parts.h>
@@ -12,7 +11,7 @@ namespace glissade::apps {
 namespace {
 
 Eigen::Vector3d compliance_point(const SceneObject& object) {
-  return object.compliance_point_B.value_or(bounds_of(*object.mesh).center());
+  return object.compliance_point_B.value_or(geometry::bounds_of(*object.mesh).center());
 }
 
 bool has_fingers(const devices::HapticState& state) {

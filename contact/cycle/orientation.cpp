@@ -190,10 +190,7 @@ std::vector<std::int8_t> outward_signs(const geometry::TriangleMesh& mesh) {
 }
 
 bool encloses(const geometry::TriangleMesh& mesh, const Eigen::Vector3d& p) {
-  Eigen::AlignedBox3d bounds;
-  for (const Eigen::Vector3d& vertex : mesh.vertices)
-    bounds.extend(vertex);
-  if (!bounds.contains(p)) return false;
+  if (!geometry::bounds_of(mesh).contains(p)) return false;
   const std::vector<std::int8_t> signs = outward_signs(mesh);
   double sum = 0.0;
   for (std::size_t t = 0; t < signs.size(); ++t)

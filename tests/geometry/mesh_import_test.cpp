@@ -160,6 +160,17 @@ TEST_F(MeshImport, WhatIsNotAReadableMeshFile) {
   }
 }
 
+TEST_F(MeshImport, AnUnweldedMeshIsAsTheFileHasIt) {
+  const std::string text = "v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 -0.0 1\nv 1 0 0\nf 4 2 3\nf 2 2 5\nrock 1\n";
+  const ImportedMesh raw = import_unwelded_mesh(folder_.write("raw.obj", text), 2.0);
+  ASSERT_EQ(raw.mesh.vertices.size(), 5U);
+  EXPECT_EQ(raw.mesh.vertices[0], Eigen::Vector3d(14, 14, 14)) << "of no triangle";
+  EXPECT_TRUE(std::signbit(raw.mesh.vertices[3].y()));
+  EXPECT_EQ(raw.mesh.vertices[4], raw.mesh.vertices[2]);
+  EXPECT_EQ(raw.mesh.triangles, (std::vector<Triangle>{{3, 1, 2}, {1, 1, 4}}));
+  EXPECT_EQ(raw.warnings.size(), 1U) << "of the unknown statement";
+}
+
 TEST_F(MeshImport, ScaleMustBePositiveAndFinite) {
   const std::filesystem::path file = folder_.write("good.obj", kObj);
   EXPECT_THAT(error_of(file, 0), testing::HasSubstr("scale"));

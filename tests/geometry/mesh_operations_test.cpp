@@ -59,6 +59,7 @@ TEST(MeshOperations, ABoxTakesOnlyTrianglesThatItHoldsWhole) {
   const Eigen::AlignedBox3d right_half(Eigen::Vector3d(0.0, -1.0, -1.0), Eigen::Vector3d(1.0, 1.0, 1.0));
   const std::vector<std::int32_t> inside = triangles_inside(mesh, right_half);
   EXPECT_NEAR(static_cast<double>(inside.size()), 1000, 100);
+  EXPECT_EQ(bounds_of(mesh).sizes(), Eigen::Vector3d(1.0, 1.0, 0.0));
   const TriangleMesh left = without_triangles(mesh, inside);
   ASSERT_EQ(left.triangles.size(), mesh.triangles.size()) << "the others keep their numbers";
   for (std::int32_t t = 0; t < std::ssize(left.triangles); ++t) {

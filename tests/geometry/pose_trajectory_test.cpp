@@ -37,6 +37,16 @@ TEST(PoseTrajectory, MovesInAStraightLineAndTurnsEvenly) {
   EXPECT_TRUE(X_WB.linear().isApprox(AngleAxisd(std::numbers::pi / 8, Vector3d::UnitZ()).toRotationMatrix(), 1e-14));
 }
 
+TEST(PoseTrajectory, HasItsRowsAsTheyWereGivenAndInAnotherTime) {
+  Isometry3d X = Isometry3d::Identity();
+  X.linear() = AngleAxisd(0.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  X(0, 0) += 1e-9;  // a quaternion would not keep that
+  const PoseTrajectory path = PoseTrajectory({{milliseconds(2), X}, row(milliseconds(4), {1, 2, 3})});
+  EXPECT_EQ(path.rows()[0].X_WB.matrix(), X.matrix());
+  EXPECT_EQ(path.time_scaled(milliseconds(6)).rows()[1].time, milliseconds(8));
+  EXPECT_EQ(path.time_scaled(milliseconds(6)).rows()[0].X_WB.matrix(), X.matrix());
+}
+
 TEST(PoseTrajectory, MeetsItsRowsAndHoldsTheEnds) {
   const std::vector<TimedPose> rows{row(milliseconds(0), {1, 0, 0}), row(milliseconds(7), {2, 0, 0}, 3.0),
                                     row(milliseconds(9), {3, 0, 0}, -3.0)};

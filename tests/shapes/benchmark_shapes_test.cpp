@@ -40,17 +40,9 @@ double flattest(const geometry::TriangleMesh& mesh) {
   return smallest;
 }
 
-AlignedBox3d bounds_of(const geometry::TriangleMesh& mesh) {
-  AlignedBox3d bounds;
-  for (const Vector3d& p : mesh.vertices) {
-    bounds.extend(p);
-  }
-  return bounds;
-}
-
 /// The part of the triangles whose centroid lies deeper than `depth` within the bounds.
 double interior_part(const geometry::TriangleMesh& mesh, double depth) {
-  const AlignedBox3d bounds = bounds_of(mesh);
+  const AlignedBox3d bounds = geometry::bounds_of(mesh);
   int interior = 0;
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(mesh.triangles.size()); ++t) {
     const Vector3d centroid = (mesh.corner(t, 0) + mesh.corner(t, 1) + mesh.corner(t, 2)) / 3;
@@ -106,7 +98,7 @@ TEST(BenchmarkShapes, HaveTheSizesOfTheirModels) {
                                        {"torus", {1, 1, 0.3}}};
   for (const Expected& e : expected) {
     for (const std::int64_t count : {8'000, 8'000 + affordable(100'000)}) {
-      const Vector3d size = bounds_of(shape_named(e.name).make(count)).sizes();
+      const Vector3d size = geometry::bounds_of(shape_named(e.name).make(count)).sizes();
       EXPECT_LT(((size - e.size).array() / e.size.array()).abs().maxCoeff(), 0.03)
           << e.name << " of " << count << ": " << size.transpose();
     }
@@ -175,7 +167,7 @@ TEST(BenchmarkShapes, RejectCountsOutOfRange) {
 TEST(BumpyPlate, LiesWithinItsBumpsAndReachesThem) {
   const geometry::TriangleMesh plate = make_bumpy_plate({0.4, 0.2}, 0.01, 3, 20'000);
   EXPECT_NEAR(static_cast<double>(plate.triangles.size()), 20'000, 1'000);
-  const AlignedBox3d bounds = bounds_of(plate);
+  const AlignedBox3d bounds = geometry::bounds_of(plate);
   EXPECT_NEAR(bounds.sizes().x(), 0.4, 1e-15);
   EXPECT_NEAR(bounds.sizes().y(), 0.2, 1e-15);
   EXPECT_LE(bounds.max().z(), 0.005);

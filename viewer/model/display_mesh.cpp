@@ -71,7 +71,7 @@ std::vector<std::uint32_t> indices_of(const geometry::TriangleMesh& mesh) {
   return indices;
 }
 
-Eigen::AlignedBox3d bounds_of(const geometry::TriangleMesh& mesh) {
+Eigen::AlignedBox3d bounds_of_triangles(const geometry::TriangleMesh& mesh) {
   Eigen::AlignedBox3d bounds;
   for (const geometry::Triangle& triangle : mesh.triangles) {
     for (const std::int32_t vertex : triangle)
@@ -192,7 +192,7 @@ std::vector<std::array<std::uint16_t, 4>> edges_of(const geometry::TriangleMesh&
 
 DisplayMesh display_mesh(const geometry::TriangleMesh& mesh, std::size_t most_triangles) {
   DisplayMesh result;
-  const Eigen::AlignedBox3d bounds = bounds_of(mesh);
+  const Eigen::AlignedBox3d bounds = bounds_of_triangles(mesh);
   if (bounds.isEmpty()) return result;
   result.lower = bounds.min();
   const double size = bounds.sizes().maxCoeff();
