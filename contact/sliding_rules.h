@@ -27,6 +27,7 @@ struct Friction {
   double sliding = 0.0;  ///< while the two bodies slip; not greater than at_rest
 
   bool is_on() const { return at_rest > 0.0 || sliding > 0.0; }
+  bool operator==(const Friction&) const = default;
 };
 
 /// The largest allowed margin (metres). The margin is the gap at which contacts stop a part. It must stay small beside
@@ -91,6 +92,8 @@ struct SlidingRules {
   /// leaves. At least 2; none: no limit. With a limit, searches have a thread even without `has_search_thread`, which
   /// then works only while the simulation waits.
   std::optional<std::int64_t> work_budget{};
+
+  bool operator==(const SlidingRules&) const = default;
 };
 
 /// The rules for a simulation behind a `HapticServer`: few cycles, a search thread, contacts ahead for the time that a

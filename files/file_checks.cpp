@@ -2,6 +2,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <mutex>
+#include <set>
 #include <stdexcept>
 #include <system_error>
 
@@ -18,7 +19,7 @@ using std::filesystem::file_type;
 
 struct InputFiles {
   std::mutex mutex;
-  std::vector<std::filesystem::path> paths;
+  std::set<std::filesystem::path> paths;
 };
 
 InputFiles& input_files() {
@@ -73,7 +74,7 @@ void check_input(const std::string& path) {
   std::error_code ignored;
   std::filesystem::path whole = std::filesystem::weakly_canonical(path, ignored);
   const std::lock_guard lock(input_files().mutex);
-  input_files().paths.push_back(std::move(whole));
+  input_files().paths.insert(std::move(whole));
 }
 
 void check_output(const std::string& path) {

@@ -20,4 +20,8 @@ Eigen::Quaterniond rotation_of(double roll_deg, double pitch_deg, double yaw_deg
 /// 1 by more than 1e-3, and when a coordinate of the position is beyond ±kLargestCoordinate_m.
 Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& q, const std::string& where);
 
+/// The pose with the rotation matrix R: R itself if its `geometry::rotation_defect` is below 1e-12, otherwise the
+/// nearest rotation. Throws for the same positions, and for a defect of more than 1e-4 or a reflection.
+Eigen::Isometry3d checked_pose(const Eigen::Vector3d& position, const Eigen::Matrix3d& R, const std::string& where);
+
 }  // namespace glissade::files

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,23 +26,35 @@
 
 namespace glissade::simulation {
 
-/// A mesh in metres: a value, a shared one, or that of a file. Copies share it.
+/// A mesh in metres: a value, a shared one, that of a file, or a shape of the catalogue. Copies share it.
 class SceneMesh {
  public:
   SceneMesh() = default;
   SceneMesh(geometry::TriangleMesh mesh) : SceneMesh(std::make_shared<const geometry::TriangleMesh>(std::move(mesh))) {}
   SceneMesh(std::shared_ptr<const geometry::TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
-  /// Reads OBJ, STL, PLY or glTF whose unit is `scale` metres, e.g. 1e-3 for millimetres. Throws std::invalid_argument,
-  /// naming the file, as `geometry::import_mesh` does.
-  SceneMesh(const std::filesystem::path& file, double scale);
+  /// Reads OBJ, STL, PLY or glTF whose unit is `scale` metres, e.g. 1e-3 for millimetres, as `geometry::import_mesh`
+  /// does, or `geometry::import_unwelded_mesh`. Throws std::invalid_argument, naming the file, as they do.
+  SceneMesh(const std::filesystem::path& file, double scale, bool is_welded = true);
+  /// Makes a shape of the catalogue in docs/scene_files.md; parameters that are not given take their defaults. Throws
+  /// std::invalid_argument, listing the known names, for an unknown shape or parameter, and for a value out of range.
+  static SceneMesh of_shape(const std::string& type, const std::map<std::string, double>& parameters = {});
 
   const geometry::TriangleMesh& operator*() const { return *mesh_; }
   const geometry::TriangleMesh* operator->() const { return mesh_.get(); }
   /// Null if no mesh was given.
   const std::shared_ptr<const geometry::TriangleMesh>& shared() const { return mesh_; }
 
+  /// How a scene file tells of the mesh. Both names are empty for a mesh given as a value.
+  struct Origin {
+    std::filesystem::path file{};  ///< absolute
+    double scale = 1.0;            ///< metres per unit of the file
+    bool is_welded = true;
+    std::string shape{};  ///< type in the catalogue
+    std::map<std::string, double> parameters{};
+  };
+  const Origin& origin() const { return origin_; }
+
   // Of a mesh from a file:
-  std::optional<double> file_scale() const { return file_scale_; }
   /// Triangles without area, which were left out.
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
   /// The warnings of `geometry::import_mesh`. Each begins with the name of the file.
@@ -48,7 +62,7 @@ class SceneMesh {
 
  private:
   std::shared_ptr<const geometry::TriangleMesh> mesh_;
-  std::optional<double> file_scale_{};
+  Origin origin_{};
   std::int64_t degenerate_triangles_ = 0;
   std::vector<std::string> warnings_{};
 };
@@ -85,11 +99,39 @@ struct Scene {
   std::optional<Eigen::Isometry3d> X_WGoal{};       ///< of the first part, for checks
   std::optional<std::string> script_path{};         ///< of the trajectory that belongs to a scene file
 
-  /// Throws std::invalid_argument, listing the known names, when there is no object `name`.
+  /// Throws std::invalid_argument, with the known names and the one that may have been meant, when there is no object
+  /// `name`.
   const SceneObject& find(const std::string& name) const;
   /// The names of the movable objects, in their order.
   std::vector<std::string> movable_names() const;
 };
+
+/// Reads a scene file, and the meshes and motions that it names; docs/scene_files.md has every key. Objects of one mesh
+/// share it; `script_path` is only noted. Throws std::invalid_argument, one line with file, line and key or value, for
+/// every deviation from the format. May block on the disk. Thread-safe. Cost: that of its meshes.
+Scene read_scene(const std::filesystem::path& path);
+
+/// The same for a text in memory: `source` replaces the file's name in messages, and paths in the scene are relative to
+/// `base_folder`.
+Scene parse_scene(const std::string& text, const std::string& source, const std::filesystem::path& base_folder);
+
+/// Writes a scene file that `read_scene` reads back as an equal scene, with every number to the bit. In the file are
+/// all objects, their poses as matrices, motions row by row, and shapes by their parameters. Meshes of files and the
+/// script stay where they are: the file has their paths, relative to its folder. Each mesh given as a value is written
+/// beside the file, as STEM_N.obj for object N (the first is 1), once for all objects that share it.
+///
+/// A file that is there already is kept if it has the same content; if one has another, nothing is written.
+///
+/// Throws std::invalid_argument, naming the file or the object: for such a file, and a folder that is not there; for
+/// what scene files do not have (hands, and rules, metaphor, stiffness or upward direction that are not the default);
+/// for what `bodies_of` refuses of any object; and for what the reader refuses or would change: names that are empty or
+/// no UTF-8, rotations with a `geometry::rotation_defect` above 1e-12, times that no number of seconds gives to the
+/// nanosecond (beyond some 26 days), triangles that give way where no axis-aligned box holds them and no others, and
+/// values out of range.
+/// Throws std::runtime_error when not everything could be written, such as on a full disk. May block on the disk.
+/// Thread-safe, but for calls that write the same file. Cost: linear in the size of its meshes; for triangles that give
+/// way, in those of their object for each box.
+void write_scene(const Scene& scene, const std::filesystem::path& path);
 
 /// A part that hands can hold.
 struct ScenePart {
@@ -125,6 +167,9 @@ SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_n
 /// in `Scene`.
 std::vector<contact::HeldPart> held_parts(const SceneBodies& bodies, contact::Metaphor metaphor,
                                           double stiffness_N_per_m);
+
+/// The models of hands. Hands of one shape share theirs.
+std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(std::span<const grasping::HandShape> hands);
 
 /// The triangles of an object that stop something.
 std::shared_ptr<const geometry::TriangleMesh> stopping_mesh(const SceneObject& object);

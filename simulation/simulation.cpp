@@ -14,13 +14,6 @@ SceneBodies movable_bodies(const Scene& scene) {
   return bodies_of(scene, names);
 }
 
-std::vector<std::shared_ptr<const grasping::HandModel>> models_of(const Scene& scene) {
-  std::vector<std::shared_ptr<const grasping::HandModel>> models;
-  for (const grasping::HandShape& shape : scene.hands)
-    models.push_back(std::make_shared<const grasping::HandModel>(grasping::make_hand(shape)));
-  return models;
-}
-
 double greatest_margin(const SceneBodies& bodies, const grasping::GraspSimulation& engine, std::size_t part) {
   double margin = engine.parts().margin(part);
   for (const contact::Obstacle& obstacle : bodies.obstacles)
@@ -43,7 +36,7 @@ std::vector<Eigen::Isometry3d> poses_of(const contact::MultiPartSliding& parts) 
 
 Simulation::Simulation(const Scene& scene)
     : bodies_(movable_bodies(scene)),
-      engine_(bodies_.obstacles, held_parts(bodies_, scene.metaphor, scene.stiffness_N_per_m), models_of(scene),
+      engine_(bodies_.obstacles, held_parts(bodies_, scene.metaphor, scene.stiffness_N_per_m), hand_models(scene.hands),
               {.sliding = scene.rules, .up_W = scene.up_W}) {
   for (std::size_t p = 0; p < part_count(); ++p)
     tracked_.push_back({contact::ContactTracker(greatest_margin(bodies_, engine_, p)), poses_of(engine_.parts())});

@@ -21,7 +21,7 @@
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
 #include <glissade/files/csv.h>
-#include <glissade/files/poses_file.h>
+#include <glissade/files/pose_files.h>
 
 namespace glissade::apps {
 

@@ -35,7 +35,8 @@ std::string in_metres(double scale, const std::string& option) {
 /// What is doubtful in the size of an object alone; empty if nothing is.
 std::string doubt_of(const SceneObject& object) {
   const double size = size_of(*object.mesh);
-  const std::optional<double> file_scale = object.mesh.file_scale();
+  const SceneMesh::Origin& origin = object.mesh.origin();
+  const auto file_scale = origin.file.empty() ? std::nullopt : std::optional(origin.scale);
   const bool is_too_large = size > (object.movable ? kDoubtfulPart_m : kDoubtful_m);
   if (file_scale && is_too_large) return across(size) + in_millimetres(*file_scale, "scale: ");
   if (file_scale && is_too_small(size, *file_scale)) {

@@ -279,7 +279,7 @@ int run(SlideOptions options) {
     }
   }
   const Scene file = open_scene(options.scene);
-  const SceneObject& part = find_object(file, options.part);
+  const SceneObject& part = file.find(options.part);
   const HapticScene scene = make_haptic_scene(file, {options.part});
   check_options.sliding.stiffness = stiffness_of(options.sliding, scene.parts.front().part_V->radius());
   if (check_options.method == reference::SlidingMethod::kPaper && !scene.moving.empty()) {

@@ -3,7 +3,7 @@
 
 #include <glissade/apps/files/followed_trajectory.h>
 #include <glissade/apps/files/hand_script.h>
-#include <glissade/files/trajectory_file.h>
+#include <glissade/files/pose_files.h>
 
 namespace glissade::apps {
 

@@ -7,8 +7,8 @@
 #include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/text.h>
 #include <glissade/files/csv.h>
+#include <glissade/files/pose_files.h>
 #include <glissade/files/text_file.h>
-#include <glissade/files/trajectory_file.h>
 
 namespace glissade::apps {
 

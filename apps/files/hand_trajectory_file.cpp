@@ -7,8 +7,8 @@
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/text.h>
 #include <glissade/files/csv.h>
+#include <glissade/files/pose_files.h>
 #include <glissade/files/text_file.h>
-#include <glissade/files/trajectory_file.h>
 #include <glissade/files/yaml_reader.h>
 
 namespace glissade::apps {

@@ -1,14 +1,13 @@
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 
 #include <glissade/apps/scene/session_start.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
 #include <glissade/contact/spring.h>
 #include <glissade/grasping/grasp_simulation.h>
+#include <glissade/simulation/scene.h>
 
 namespace glissade::apps {
 
@@ -16,21 +15,6 @@ namespace {
 
 void soften(contact::HeldPart& part, const devices::DeviceDescriptor& device, std::chrono::nanoseconds period) {
   part.stiffness = haptics::coupling_for(device, part.stiffness.value(), period).stiffness;
-}
-
-using Models = std::vector<std::shared_ptr<const grasping::HandModel>>;
-
-/// Hands of one shape share their model.
-Models models_of(const std::vector<Grip>& grips) {
-  std::map<std::tuple<double, double, hands::HandSide>, std::shared_ptr<const grasping::HandModel>> known;
-  Models models;
-  for (const Grip& grip : grips) {
-    const grasping::HandShape& shape = *grip.fingers;
-    auto& model = known[{shape.length_m, shape.breadth_m, shape.side}];
-    if (!model) model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
-    models.push_back(model);
-  }
-  return models;
 }
 
 }  // namespace
@@ -57,7 +41,7 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const Sl
 
 std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(const grasping::GraspSimulation& simulation,
                                                                     std::size_t count) {
-  Models models(count);
+  std::vector<std::shared_ptr<const grasping::HandModel>> models(count);
   for (std::size_t h = 0; h < simulation.hand_count(); ++h)
     models[h] = simulation.model(h);
   return models;
@@ -68,14 +52,16 @@ grasping::GraspSimulation start_simulation(const HapticScene& scene, const std::
                                            std::chrono::nanoseconds period) {
   std::vector<contact::HeldPart> parts = held_parts(scene, choice);
   const bool has_fingers = std::any_of(grips.begin(), grips.end(), [](const Grip& grip) { return grip.fingers; });
+  std::vector<grasping::HandShape> hands;
   for (const Grip& grip : grips) {
     if (grip.fingers.has_value() != has_fingers) throw std::invalid_argument("either all hands have fingers, or none");
+    if (has_fingers) hands.push_back(*grip.fingers);
     for (std::size_t p = 0; p < scene.parts.size(); ++p)
       soften(parts[p], grip.device, period);
   }
   const grasping::GraspRules chosen{.sliding = with_choice(rules, choice)};
   try {
-    return {scene.obstacles, parts, has_fingers ? models_of(grips) : Models{}, chosen};
+    return {scene.obstacles, parts, simulation::hand_models(hands), chosen};
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(scene.source + ": " + error.what() + overlap_advice(scene, !choice.depenetrate));
   }

@@ -5,7 +5,7 @@
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/files/trajectory_file.h>
+#include <glissade/files/pose_files.h>
 
 namespace glissade::bench {
 namespace {

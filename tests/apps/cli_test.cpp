@@ -19,6 +19,7 @@ namespace {
 
 using test_support::expect_refused;
 using test_support::glissade;
+using test_support::kTetrahedronObj;
 using test_support::ProgramResult;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;

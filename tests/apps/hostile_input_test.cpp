@@ -23,6 +23,7 @@ namespace {
 
 using test_support::expect_refused;
 using test_support::glissade;
+using test_support::kTetrahedronObj;
 using test_support::ProgramResult;
 using testing::HasSubstr;
 

@@ -15,6 +15,7 @@ namespace glissade::apps {
 namespace {
 
 using test_support::glissade;
+using test_support::kTetrahedronObj;
 using test_support::ProgramResult;
 using test_support::TemporaryFolder;
 using testing::HasSubstr;

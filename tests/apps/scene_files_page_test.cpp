@@ -21,9 +21,9 @@
 #include <glissade/apps/text.h>
 #include <glissade/contact/sliding.h>
 #include <glissade/devices/event_log.h>
-#include <glissade/files/poses_file.h>
+#include <glissade/files/pose_files.h>
+#include <glissade/files/scene_keys.h>
 #include <glissade/files/text_file.h>
-#include <glissade/files/trajectory_file.h>
 #include <glissade/geometry/pose_trajectory.h>
 #include <glissade/shapes/shape_catalog.h>
 
@@ -246,6 +246,7 @@ TEST_F(ScenePages, TheTablesHaveExactlyTheKeysOfTheReader) {
   EXPECT_THAT(scenes.names_below("### Scene"), UnorderedElementsAreArray(kSceneKeys));
   EXPECT_THAT(scenes.names_below("### Object"), UnorderedElementsAreArray(kObjectKeys));
   EXPECT_THAT(scenes.names_below("### Pose"), UnorderedElementsAreArray(kPoseKeys));
+  EXPECT_THAT(scenes.names_below("### Timed pose"), testing::ElementsAre(kTimeKey));
   EXPECT_THAT(scenes.names_below("### Box"), UnorderedElementsAreArray(kBoxKeys));
   EXPECT_THAT(scenes.names_below("### Shape"), testing::ElementsAre(kShapeTypeKey));
 }
@@ -254,7 +255,7 @@ TEST_F(ScenePages, EveryKeyIsInAnExample) {
   std::string examples;
   for (const Block& block : scenes.blocks())
     examples += block.language == "yaml" ? block.text : "";
-  std::set<std::string_view> keys{kShapeTypeKey};
+  std::set<std::string_view> keys{kShapeTypeKey, kTimeKey};
   keys.insert(kSceneKeys.begin(), kSceneKeys.end());
   keys.insert(kObjectKeys.begin(), kObjectKeys.end());
   keys.insert(kPoseKeys.begin(), kPoseKeys.end());

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/files/poses_file.h>
+#include <glissade/files/pose_files.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"

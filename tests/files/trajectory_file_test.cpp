@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/files/trajectory_file.h>
+#include <glissade/files/pose_files.h>
 
 #include "expect_bad_input.h"
 

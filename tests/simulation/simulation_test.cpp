@@ -186,7 +186,7 @@ TEST(Scene, ComplaintsNameSceneAndObject) {
     (void)room().find("bix");
     FAIL();
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "the scene: there is no object 'bix' (known: floor, wall, box)");
+    EXPECT_STREQ(error.what(), "the scene: there is no object 'bix' (did you mean 'box'?) (known: floor, wall, box)");
   }
   EXPECT_THROW(SceneMesh("missing.stl", 1.0), std::invalid_argument);
 }

@@ -22,6 +22,7 @@ namespace {
 
 using test_support::expect_refused;
 using test_support::glissade;
+using test_support::kTetrahedronObj;
 using test_support::ProgramResult;
 using Arguments = std::vector<std::string>;
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/apps/files/followed_trajectory.h>
-#include <glissade/files/trajectory_file.h>
+#include <glissade/files/pose_files.h>
 
 #include "expect_bad_input.h"
 #include "temporary_folder.h"

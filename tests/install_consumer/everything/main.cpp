@@ -14,6 +14,7 @@
 #include <glissade/grasping/hand_model.h>
 #include <glissade/grasping/urdf_chain.h>
 #include <glissade/realtime/triple_buffer.h>
+#include <glissade/simulation/scene.h>
 
 namespace {
 
@@ -47,6 +48,11 @@ int main() {
     sliding.advance(at(0.12));
   expect(sliding.result().state == contact::SlidingState::kResting, "the cube comes to rest on the table");
   expect(!collision::intersects(table_W->tree, cube_V->tree, sliding.result().X_WV, workspace), "it rests outside");
+
+  simulation::Scene scene{.objects = {{.name = "cube", .mesh = box(0.05), .X_WB = at(0.13)}}};
+  scene.objects.push_back({.name = "nut", .mesh = simulation::SceneMesh::of_shape("nut")});
+  simulation::write_scene(scene, "scene.yaml");
+  expect(simulation::read_scene("scene.yaml").find("cube").X_WB.isApprox(at(0.13), 0.0), "a scene comes back");
 
   devices::GloveCommand command;
   command.f_H_W = {0.0, 0.0, 1e6};

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Files of timed poses: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times.
+/// Files of poses: rows `x_m,y_m,z_m,qw,qx,qy,qz`, or trajectories: rows `t_s,x_m,y_m,z_m,qw,qx,qy,qz` at rising times.
 
 #include <chrono>
 #include <optional>
@@ -14,8 +14,13 @@
 
 namespace glissade::files {
 
-/// `t_s` rounded to nanoseconds. Throws std::invalid_argument, beginning with `where` ("file:line"), beyond ±1e9 s.
-std::chrono::nanoseconds time_of(double t_s, const std::string& where);
+/// The poses X_AB of a file, in its order.
+/// Throws std::invalid_argument, naming file, line and value: see `read_csv` and `checked_pose`.
+std::vector<Eigen::Isometry3d> read_poses(const std::string& path);
+
+/// `t_s` rounded to nanoseconds. Throws std::invalid_argument, beginning with `where` ("file:line") and `name`, beyond
+/// ±1e9 s.
+std::chrono::nanoseconds time_of(double t_s, const std::string& where, const char* name = "column t_s");
 
 /// A row whose first columns are those of a trajectory, `where` it stands in its file, and the time of the row before,
 /// if there is one. Throws as `read_trajectory`.

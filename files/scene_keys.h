@@ -1,0 +1,22 @@
+#pragma once
+
+/// The keys of scene files, by the map in which they stand; docs/scene_files.md describes each. A shape takes
+/// `kShapeTypeKey` and the parameters of that shape in `shapes::shape_catalog`, a timed pose `kTimeKey` and the keys of
+/// a pose.
+
+#include <array>
+#include <string_view>
+
+namespace glissade::files {
+
+inline constexpr std::array<std::string_view, 3> kSceneKeys{"objects", "script", "goal"};
+inline constexpr std::array<std::string_view, 12> kObjectKeys{
+    "name",    "mesh",  "shape",        "scale",    "welded",    "pose",
+    "movable", "moves", "grip_N_per_m", "margin_m", "gives_way", "compliance_point_m"};
+inline constexpr std::string_view kShapeTypeKey = "type";
+inline constexpr std::string_view kTimeKey = "t_s";
+inline constexpr std::array<std::string_view, 4> kPoseKeys{"position_m", "orientation_wxyz", "orientation_rpy_deg",
+                                                           "orientation_matrix"};
+inline constexpr std::array<std::string_view, 2> kBoxKeys{"min_m", "max_m"};
+
+}  // namespace glissade::files
