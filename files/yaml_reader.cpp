@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
 #include <yaml-cpp/depthguard.h>
+#include <yaml-cpp/eventhandler.h>
 
 #include <glissade/files/did_you_mean.h>
 #include <glissade/files/text.h>
@@ -43,23 +45,49 @@ std::string shown(const YAML::Node& node) {
   return node.IsSequence() ? "a list" : "nothing";
 }
 
+/// Where documents begin.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Not all documents: yaml-cpp 0.7 finds endlessly many where a comma stands outside of a list.
+DocumentStarts first_two_starts(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  DocumentStarts starts;
+  while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
+  }
+  return starts;
+}
+
 }  // namespace
 
 YamlReader::YamlReader(std::string source) : source_(std::move(source)) {}
 
 YAML::Node YamlReader::parse(const std::string& text) {
   text_ = text;
-  std::vector<YAML::Node> documents;
   try {
-    documents = YAML::LoadAll(text);
+    const DocumentStarts starts = first_two_starts(text);
+    if (starts.marks.size() < 2) return YAML::Load(text);
+    throw std::invalid_argument(at_mark(source_, starts.marks[1]) +
+                                ": a second YAML document begins here, but there must be only one");
   } catch (const YAML::DeepRecursion& error) {
     throw std::invalid_argument(at_mark(source_, error.mark) + ": not valid YAML: lists or maps in more than " +
                                 std::to_string(error.depth()) + " others");
   } catch (const YAML::Exception& error) {
     throw std::invalid_argument(at_mark(source_, error.mark) + ": not valid YAML: " + error.msg);
   }
-  if (documents.size() > 1) fail(documents[1], "a second YAML document begins here, but there must be only one");
-  return documents.empty() ? YAML::Node() : documents.front();
 }
 
 std::string YamlReader::where(const YAML::Node& node) const {

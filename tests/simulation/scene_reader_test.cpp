@@ -274,8 +274,10 @@ TEST(SceneReader, WhatIsNotASceneIsAnError) {
 }
 
 TEST(SceneReader, ThereIsOneDocument) {
-  expect_bad_input([] { parse_object("---\nobjects: []\n"); }, {"scene.yaml:5:", "second"});
+  expect_bad_input([] { parse_object("---\nobjects: []\n"); }, {"scene.yaml:4:", "second"});
   expect_bad_input([] { parse_object("---\n"); }, {"scene.yaml:", "second"});
+  for (const char* comma : {", 1", "[a] , b", "{objects: []}\n,"})
+    expect_bad_input([&] { parse_text(comma); }, {"scene.yaml:", "second"});
   EXPECT_EQ(parse_text("---\nobjects:\n  - {name: a, shape: {type: box}}\n...\n").objects.size(), 1U);
 }
 
