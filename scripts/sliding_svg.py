@@ -1,9 +1,9 @@
 """A few lines of SVG for the figures of docs/sliding.md: plain shapes, one style for light and dark screens."""
 
-LIGHT = {"page": "#ffffff", "text": "#1d232b", "quiet": "#5a6572", "solid": "#d5dae1", "edge": "#5a6572",
-         "part": "#1f6fbf", "ghost": "#d3690a", "force": "#c7343c", "good": "#14876a"}
-DARK = {"page": "#12161b", "text": "#e6eaef", "quiet": "#9aa6b3", "solid": "#333c46", "edge": "#9aa6b3",
-        "part": "#6cb0f5", "ghost": "#f2a25c", "force": "#f2787d", "good": "#4fcfa6"}
+import pathlib
+import re
+
+PALETTE = pathlib.Path(__file__).parent.parent / "viewer/page/src/palette.css"
 SHAPES = """
 text { font: 13px sans-serif; }
 text.quiet { font-size: 12px; }
@@ -19,14 +19,15 @@ text.title { font-weight: bold; font-size: 14px; }
 
 def colors(palette):
     """The rules that differ between light and dark, without CSS variables, which some viewers do not support."""
-    rules = ".page { fill: %(page)s; } text, .dot { fill: %(text)s; } text.quiet { fill: %(quiet)s; }\n"
-    rules += ".solid { fill: %(solid)s; stroke: %(edge)s; } .line, .box { stroke: %(edge)s; } .head { fill: %(edge)s; }\n"
-    rules += ".thin { stroke: %(quiet)s; } .allowed { fill: %(good)s; }\n"
-    for kind in ("part", "ghost", "force", "good"):
-        rules += f".{kind} {{ stroke: %({kind})s; }} .dot.{kind}, .head.{kind} {{ fill: %({kind})s; stroke: none; }}\n"
-    return rules % palette
+    rules = ".page { fill: %(card)s; } text, .dot { fill: %(text)s; } text.quiet { fill: %(quiet)s; }\n"
+    rules += ".solid { fill: %(grid)s; stroke: %(quiet)s; } .line, .box { stroke: %(quiet)s; } .head { fill: %(quiet)s; }\n"
+    rules += ".thin { stroke: %(quiet)s; } .allowed { fill: %(c2)s; }\n"
+    for kind, color in {"part": "c0", "ghost": "c1", "force": "c4", "good": "c2"}.items():
+        rules += f".{kind} {{ stroke: %({color})s; }} .dot.{kind}, .head.{kind} {{ fill: %({color})s; stroke: none; }}\n"
+    return rules % dict(re.findall(r"--(\w+): (#\w+);", palette))
 
 
+LIGHT, DARK = PALETTE.read_text(encoding="utf-8").split("@media (prefers-color-scheme: dark)")
 STYLE = SHAPES + colors(LIGHT) + "@media (prefers-color-scheme: dark) {\n" + colors(DARK) + "}\n"
 
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include <glissade/devices/haptic_state.h>
 #include <glissade/grasping/grasp_analysis.h>
 #include <glissade/grasping/hand_model.h>
+#include <glissade/viewer/page.h>
 #include <glissade/viewer/scene_model.h>
 
 #include "model/glb.h"
@@ -17,20 +19,23 @@ namespace glissade::viewer {
 
 namespace {
 
-// Linear RGB, as glTF has it. The page gives parts other colours by their state.
-constexpr std::array<double, 4> kFixedColor{0.52, 0.55, 0.58, 1.0};
-constexpr std::array<double, 4> kPartColor{0.08, 0.27, 0.62, 1.0};
-constexpr std::array<double, 4> kMovingColor{0.55, 0.30, 0.06, 1.0};
-constexpr std::array<double, 4> kSkinColor{0.72, 0.45, 0.32, 1.0};
+/// A colour of the page as glTF has it: linear, with opacity. The page gives parts other colours by their state.
+std::array<double, 4> linear_color(std::string_view name) {
+  const auto linear = [](double value) {
+    return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+  };
+  const auto [red, green, blue] = color(name);
+  return {linear(red), linear(green), linear(blue), 1.0};
+}
 
 struct Kind {
   const char* name;
-  std::array<double, 4> color;
+  const char* color;
 };
 
 Kind kind_of(const ViewObject& object) {
-  if (!object.part) return {"fixed", kFixedColor};
-  return object.moves_on_its_own ? Kind{"moving", kMovingColor} : Kind{"part", kPartColor};
+  if (!object.part) return {"fixed", "fixed"};
+  return object.moves_on_its_own ? Kind{"moving", "moving"} : Kind{"part", "held"};
 }
 
 /// How many triangles the mesh of each object may keep.
@@ -73,7 +78,7 @@ class Meshes {
   std::size_t number_of(const geometry::TriangleMesh& mesh, const Kind& kind) {
     const auto [place, is_new] = numbers_.try_emplace({&mesh, kind.name}, 0);
     if (!is_new) return place->second;
-    return place->second = writer_.add_mesh(display_mesh(mesh, shares_.of(mesh)), kind.color);
+    return place->second = writer_.add_mesh(display_mesh(mesh, shares_.of(mesh)), linear_color(kind.color));
   }
 
  private:
@@ -89,7 +94,8 @@ void add_hand(const ViewHand& hand, std::size_t number, const Eigen::Isometry3d&
   const std::span<const grasping::ChainLink> links = hand.model->chain.links();
   for (std::size_t l = 0; l < links.size(); ++l) {
     if (!links[l].mesh) continue;
-    const std::size_t mesh = writer.add_mesh(display_mesh(*links[l].mesh, links[l].mesh->triangles.size()), kSkinColor);
+    const std::size_t mesh =
+        writer.add_mesh(display_mesh(*links[l].mesh, links[l].mesh->triangles.size()), linear_color("skin"));
     const Eigen::Isometry3d X_OL = hand.X_WL.empty() ? Eigen::Isometry3d::Identity() : X_OW * hand.X_WL[l];
     writer.add_node(links[l].name, X_OL, mesh,
                     {{"name", links[l].name}, {"kind", "segment"}, {"hand", number}, {"link", l}});

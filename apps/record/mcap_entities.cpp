@@ -13,15 +13,6 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr Rgba kFixedColor{0.74, 0.77, 0.79, 1.0};
-constexpr Rgba kMovingColor{0.76, 0.58, 0.27, 1.0};
-constexpr Rgba kPartColor{0.31, 0.56, 0.81, 1.0};
-constexpr Rgba kGhostColor{0.31, 0.56, 0.81, 0.25};
-constexpr Rgba kSkinColor{0.86, 0.66, 0.54, 1.0};
-constexpr Rgba kNameColor{0.55, 0.60, 0.65, 1.0};
-constexpr Rgba kContactColor{0.91, 0.24, 0.33, 1.0};
-constexpr Rgba kForceColor{0.13, 0.69, 0.39, 1.0};
-
 // Sizes in metres: what matters is as large as a finger, also in a large scene.
 constexpr double kContactDiameter = 0.005;
 constexpr double kNormalLength = 0.03;
@@ -41,7 +32,7 @@ Json empty_entity(const std::string& id, const std::string& frame, const char* k
   return entity;
 }
 
-Json triangles_json(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X, const Rgba& color) {
+Json triangles_json(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d& X, Json color) {
   Json points = Json::array();
   for (const Eigen::Vector3d& vertex : mesh.vertices)
     points.push_back(vector_json(vertex));
@@ -52,7 +43,7 @@ Json triangles_json(const geometry::TriangleMesh& mesh, const Eigen::Isometry3d&
   }
   return {{"pose", pose_json(X)},
           {"points", std::move(points)},
-          {"color", color_json(color)},
+          {"color", std::move(color)},
           {"colors", Json::array()},
           {"indices", std::move(indices)}};
 }
@@ -70,7 +61,7 @@ Json name_json(const viewer::ViewObject& object, const geometry::TriangleMesh& m
           {"billboard", true},
           {"font_size", kPixels},
           {"scale_invariant", true},
-          {"color", color_json(kNameColor)},
+          {"color", color_json("axis")},
           {"text", object.name}};
 }
 
@@ -78,29 +69,29 @@ Json name_json(const viewer::ViewObject& object, const geometry::TriangleMesh& m
 Json object_entity(const viewer::ViewObject& object, const geometry::TriangleMesh& mesh,
                    std::chrono::nanoseconds time) {
   const char* const kind = !object.part ? "fixed" : object.moves_on_its_own ? "moving" : "part";
-  const Rgba& color = !object.part ? kFixedColor : object.moves_on_its_own ? kMovingColor : kPartColor;
+  const char* const color = object.part && !object.moves_on_its_own ? "held" : kind;
   const Eigen::Isometry3d X_FB = object.part ? Eigen::Isometry3d::Identity() : object.X_WB;
   Json entity = empty_entity(object.name, object.part ? numbered("part", *object.part) : kWorldFrame, kind, time);
-  entity["triangles"].push_back(triangles_json(mesh, X_FB, color));
+  entity["triangles"].push_back(triangles_json(mesh, X_FB, color_json(color)));
   entity["texts"].push_back(name_json(object, mesh, X_FB));
   return entity;
 }
 
 Json mesh_entity(const std::string& id, const std::string& frame, const char* kind, const geometry::TriangleMesh& mesh,
-                 const Rgba& color, std::chrono::nanoseconds time) {
+                 Json color, std::chrono::nanoseconds time) {
   Json entity = empty_entity(id, frame, kind, time);
-  entity["triangles"].push_back(triangles_json(mesh, Eigen::Isometry3d::Identity(), color));
+  entity["triangles"].push_back(triangles_json(mesh, Eigen::Isometry3d::Identity(), std::move(color)));
   return entity;
 }
 
 Json sphere_json(const Eigen::Vector3d& p_W) {
   return {{"pose", pose_json(Eigen::Isometry3d(Eigen::Translation3d(p_W)))},
           {"size", vector_json(Eigen::Vector3d::Constant(kContactDiameter))},
-          {"color", color_json(kContactColor)}};
+          {"color", color_json("contact")}};
 }
 
 /// From a point along a vector, which is not zero.
-Json arrow_json(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W, const Rgba& color) {
+Json arrow_json(const Eigen::Vector3d& p_W, const Eigen::Vector3d& v_W, const char* color) {
   constexpr double kLongestHead = 0.02;
   const double length = v_W.norm();
   const double head = std::min(0.3 * length, kLongestHead);
@@ -118,7 +109,7 @@ void add_contacts(const devices::HapticState& state, std::span<const Contact> co
     const Eigen::Vector3d p_W = part.X_WV * contact.p_V.template cast<double>();
     const Eigen::Vector3d n_W = contact.n_W.template cast<double>();
     entity["spheres"].push_back(sphere_json(p_W));
-    entity["arrows"].push_back(arrow_json(p_W, kNormalLength * n_W, kContactColor));
+    entity["arrows"].push_back(arrow_json(p_W, kNormalLength * n_W, "contact"));
   }
 }
 
@@ -136,13 +127,14 @@ Json scene_update(const viewer::ViewScene& scene, std::size_t most_triangles, st
     entities.push_back(object_entity(object, *meshes[i], time));
     if (!object.part || object.moves_on_its_own) continue;
     const std::string frame = numbered("ghost", *object.part);
-    entities.push_back(mesh_entity(object.name + " (ghost)", frame, "ghost", *meshes[i], kGhostColor, time));
+    entities.push_back(
+        mesh_entity(object.name + " (ghost)", frame, "ghost", *meshes[i], color_json("held", 0.25), time));
   }
   for (std::size_t h = 0; h < scene.hands.size(); ++h) {
     if (!scene.hands[h].model) continue;
     for (const grasping::ChainLink& link : scene.hands[h].model->chain.links()) {
       const std::string frame = segment_frame(h, link.name);
-      if (link.mesh) entities.push_back(mesh_entity(frame, frame, "segment", *link.mesh, kSkinColor, time));
+      if (link.mesh) entities.push_back(mesh_entity(frame, frame, "segment", *link.mesh, color_json("skin"), time));
     }
   }
   constexpr int kAll = 1;  // objects of the run before
@@ -168,7 +160,7 @@ Json contacts_update(const devices::HapticState& state, std::span<const std::opt
       const devices::HapticPartState& part = state.parts.at(static_cast<std::size_t>(hand.part));
       p_W = part.X_WV * part.p_Vref;
     }
-    if (p_W) entity["arrows"].push_back(arrow_json(*p_W, kForceLengthPerNewton * hand.force_W, kForceColor));
+    if (p_W) entity["arrows"].push_back(arrow_json(*p_W, kForceLengthPerNewton * hand.force_W, "force"));
   }
   return {{"deletions", Json::array()}, {"entities", Json::array({std::move(entity)})}};
 }

@@ -1,6 +1,7 @@
 #include <cstdint>
 
 #include <glissade/apps/record/mcap_values.h>
+#include <glissade/viewer/page.h>
 
 namespace glissade::apps {
 
@@ -27,8 +28,9 @@ nlohmann::json vector_json(const Eigen::Vector3d& v) {
   return {{"x", v.x()}, {"y", v.y()}, {"z", v.z()}};
 }
 
-nlohmann::json color_json(const Rgba& rgba) {
-  return {{"r", rgba[0]}, {"g", rgba[1]}, {"b", rgba[2]}, {"a", rgba[3]}};
+nlohmann::json color_json(std::string_view name, double opacity) {
+  const auto [red, green, blue] = viewer::color(name);
+  return {{"r", red}, {"g", green}, {"b", blue}, {"a", opacity}};
 }
 
 nlohmann::json pose_json(const Eigen::Isometry3d& X) {

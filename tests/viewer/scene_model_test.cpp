@@ -1,13 +1,18 @@
 // The scene as binary glTF, read by the rules of the format.
 
+#include <cmath>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/mesh_import.h>
 #include <glissade/geometry/mesh_topology.h>
+#include <glissade/viewer/page.h>
 #include <glissade/viewer/scene_model.h>
 
 #include "glb_file.h"
@@ -57,6 +62,26 @@ TEST(SceneModel, ObjectsStandAtTheirPoses) {
     }
     EXPECT_EQ(found, 2u);
   }
+}
+
+TEST(SceneModel, HasTheColorsOfThePageInLinearLight) {
+  const Glb glb = read_glb(scene_model(two_boxes(Eigen::Vector3d::Zero()), kWhole));
+  const auto encoded = [](double linear) {  // by the definition of sRGB
+    return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+  };
+  ASSERT_EQ(glb.json["materials"].size(), 2u);
+  for (const auto& [material, name] : {std::pair(std::size_t{0}, "fixed"), std::pair(std::size_t{1}, "held")}) {
+    const nlohmann::json& rgba = glb.json["materials"][material]["pbrMetallicRoughness"]["baseColorFactor"];
+    for (std::size_t i = 0; i < 3; ++i)
+      EXPECT_NEAR(encoded(rgba[i]), color(name)[i], 1e-4) << name;
+  }
+}
+
+TEST(Page, ItsColorsAreThoseOfLightScreens) {
+  EXPECT_THAT(color("card"), testing::Each(testing::Gt(0.9)));
+  EXPECT_THAT(color("text"), testing::Each(testing::Lt(0.2)));
+  EXPECT_GT(color("held")[2], 2.0 * color("held")[0]) << "blue";
+  EXPECT_THROW(color("no such colour"), std::logic_error);
 }
 
 /// Other programs read the model, and so does our own importer. The grid of a mesh has 65535 steps.

@@ -19,10 +19,10 @@ const bundle = await build({
 
 // What would end the script early, and what String.replace would take for a pattern.
 const script = bundle.outputFiles[0].text.replaceAll('</script', '<\\/script');
-const style = await readFile(new URL('style.css', source), 'utf8');
-const plotStyle = await readFile(new URL('./node_modules/uplot/dist/uPlot.min.css', import.meta.url), 'utf8');
+const styles = ['./node_modules/uplot/dist/uPlot.min.css', './src/palette.css', './src/style.css'];
+const style = (await Promise.all(styles.map((file) => readFile(new URL(file, import.meta.url), 'utf8')))).join('\n');
 const page = (await readFile(new URL('index.html', source), 'utf8'))
-  .replace('<!--style-->', () => `<style>\n${plotStyle}\n${style}</style>\n<!--report-style-->`)
+  .replace('<!--style-->', () => `<style>\n${style}</style>\n<!--report-style-->`)
   .replace('<!--script-->', () => `<script type="module">\n${script}</script>`);
 
 if (process.argv.includes('--check')) {

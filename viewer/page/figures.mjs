@@ -6,17 +6,13 @@ import { build } from 'esbuild';
 
 const here = new URL('./', import.meta.url);
 
-// The colours of the page on white paper, paler, and those of segments.
-const STYLE = ':root { --stage: #fff; --held: #7fa8d8; --skin: #f0cdb2; --touching: #dd4a30; --target: #4d5866; ' +
-  '--inner: #78aad7; --middle: #ebc35f; --outer: #d77355; }';
-
 async function htmlOfFigures() {
   const bundle = await build({
     entryPoints: [new URL('figure.js', here).pathname], bundle: true, format: 'esm', target: 'es2022', write: false,
   });
-  const style = await readFile(new URL('src/style.css', here), 'utf8');
+  const palette = await readFile(new URL('src/palette.css', here), 'utf8');
   const script = bundle.outputFiles[0].text.replaceAll('</script', '<\\/script');
-  return `<style>${style}${STYLE}</style><div style="width: 100px; height: 100px"><canvas id="canvas"></canvas></div>` +
+  return `<html class="figure"><style>${palette}</style><div style="width: 100px; height: 100px"><canvas id="canvas"></canvas></div>` +
     `<script type="module">${script}</script>`;
 }
 

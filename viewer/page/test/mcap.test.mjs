@@ -9,6 +9,8 @@ import { after, before, test } from 'node:test';
 import { McapIndexedReader, McapStreamReader } from '@mcap/core';
 import { PROGRAM, isNear, rowsOf } from './harness.mjs';
 
+const palette = readFileSync(new URL('../src/palette.css', import.meta.url), 'utf8'); // light screens first
+
 let folder;
 let door;
 let hand;
@@ -132,8 +134,10 @@ test('each part that hands can hold has a translucent ghost, and each object its
   assert.deepEqual(more, []);
   assert.deepEqual([ghost.id, ghost.frame_id], ['window_motor (ghost)', 'ghost_0']);
   const { color, ...mesh } = ghost.triangles[0];
-  assert.deepEqual([color.a, part.triangles[0].color.a], [0.25, 1]);
-  assert.deepEqual({ ...mesh, color: part.triangles[0].color }, part.triangles[0]);
+  const [, red, green, blue] = /--held: #(..)(..)(..);/.exec(palette).map((byte) => parseInt(byte, 16) / 255);
+  assert.deepEqual(part.triangles[0].color, { r: red, g: green, b: blue, a: 1 });
+  assert.deepEqual({ ...mesh, color: { ...color, a: 1 } }, part.triangles[0]);
+  assert.equal(color.a, 0.25);
 
   for (const entity of entities) {
     const names = entity.texts.map(({ text }) => text);
