@@ -124,29 +124,26 @@ nlohmann::ordered_json load_json(const LoadFigures& figures) {
   return json;
 }
 
-/// The outline of the histogram's bars, up to `longest`, in percent of all durations.
+/// The histogram's bars up to `longest`, each from its begin, in percent of all durations.
 PlotSeries bars_of(const LatencyHistogram& histogram, std::string name, std::chrono::nanoseconds longest) {
   constexpr int kBars = 100;
   PlotSeries series{std::move(name), {}, {}};
   std::uint64_t before = 0;
   for (int i = 0; i < kBars; ++i) {
-    const std::chrono::nanoseconds begin = longest * i / kBars;
-    const std::chrono::nanoseconds end = longest * (i + 1) / kBars;
-    const std::uint64_t up_to_end = histogram.count_up_to(end);
-    const double percent = 100.0 * static_cast<double>(up_to_end - before) /
-                           static_cast<double>(std::max<std::uint64_t>(1, histogram.count()));
+    const std::uint64_t up_to_end = histogram.count_up_to(longest * (i + 1) / kBars);
+    series.x.push_back(in_us(longest * i / kBars));
+    series.y.push_back(100.0 * static_cast<double>(up_to_end - before) /
+                       static_cast<double>(std::max<std::uint64_t>(1, histogram.count())));
     before = up_to_end;
-    for (const std::chrono::nanoseconds x : {begin, end}) {
-      series.x.push_back(in_us(x));
-      series.y.push_back(percent);
-    }
   }
+  series.x.push_back(in_us(longest));
+  series.y.push_back(series.y.back());
   return series;
 }
 
 /// The histograms of the chosen rows of a link; its axis ends where the longest of 200 durations lies.
 Plot plot_of(const LinkFigures& link, const std::string& title, std::size_t first_row, std::size_t end_row) {
-  Plot plot{std::string(link.link) + ", " + title, "duration [us]", "share [%]", {}};
+  Plot plot{std::string(link.link) + ", " + title, "duration [us]", "share [%]", {}, false, true};
   std::chrono::nanoseconds longest{1000};
   for (std::size_t i = first_row; i < end_row; ++i)
     longest = std::max(longest, latency_rows()[i].of(link).quantile(0.995));

@@ -11,15 +11,15 @@
 
 namespace glissade::apps {
 
-/// Keeps its ends, and the minimum and the maximum of each of some thousand equal stretches, so that no peak is lost.
-/// When there are too many of them, two become one.
+/// Keeps its ends, and the minimum and the maximum of each of about a thousand equal stretches, so that no peak is
+/// lost. When there are too many of them, two become one.
 class GrowingCurve {
  public:
   explicit GrowingCurve(std::string name) : name_(std::move(name)) {}
 
   /// x ascends from call to call; both are finite.
   void add(double x, double y);
-  /// The line so far, at least twice as fine as a page draws it.
+  /// The line so far, as fine as a page draws it.
   PlotSeries series() const;
 
  private:

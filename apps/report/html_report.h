@@ -1,15 +1,15 @@
 #pragma once
 
-/// A page of figures and plots in one file: no network, legible on light and dark screens and on paper. With a replay,
-/// it also shows the run in three dimensions; a click on a plot over time goes to that moment.
+/// The viewer's page with figures and plots in it, in one file: no network, legible on light and dark screens and on
+/// paper. With a replay, it also shows the run in three dimensions; a click on a plot over time goes to that moment.
 
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <glissade/apps/report/plot.h>
 #include <glissade/apps/report/strip_chart.h>
-#include <glissade/apps/report/svg_plot.h>
 
 namespace glissade::apps {
 
@@ -26,7 +26,7 @@ struct Report {
   std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: name, and value with unit
   std::vector<Plot> plots;
   std::vector<StripChart> strips{};  ///< below the plots
-  std::optional<Replay> replay{};    ///< between summary and plots
+  std::optional<Replay> replay{};    ///< above the summary
 };
 
 /// The page as HTML; texts are plain text and escaped here.

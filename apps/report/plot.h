@@ -1,14 +1,14 @@
 #pragma once
 
-/// The data of a line plot, and a decimation of long lines that keeps their peaks.
+/// The data of a line plot.
 
-#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace glissade::apps {
 
-/// One line of a plot. `x` ascends; `y` has as many values. A value that is not finite interrupts the line.
+/// One line of a plot, which bounds its number of points itself, as `GrowingCurve` does. `x` ascends; `y` has as many
+/// values. A value that is not finite interrupts the line.
 struct PlotSeries {
   std::string name;
   std::vector<double> x;
@@ -25,10 +25,7 @@ struct Plot {
   std::string y_label;
   std::vector<PlotSeries> series;
   bool counts = false;  ///< of things: the axis of values has whole numbers only
+  bool steps = false;   ///< a value holds up to the next point
 };
-
-/// At most `most` (≥ 4) points that look like `series` when drawn: the first, the last, and the minimum and maximum of
-/// each stretch between them, so that no peak is lost.
-PlotSeries decimated(const PlotSeries& series, std::size_t most);
 
 }  // namespace glissade::apps

@@ -188,15 +188,14 @@ void add_plots(const SessionSummary& summary, const Session& session, Report& re
   for (const PartSummary& part : summary.parts)
     names.push_back(part.name);
   PartCurves parts(names);
-  PlotSeries age{"age", {}, {}};
+  GrowingCurve age("age");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t p = 0; p < samples.parts(); ++p)
       parts.add(seconds_of_tick(samples, i), p, samples.part(i, p));
-    age.x.push_back(seconds_of_tick(samples, i));
-    age.y.push_back(1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count()));
+    age.add(seconds_of_tick(samples, i), 1e-6 * static_cast<double>(samples.tick(i).contact_set_age.count()));
   }
   parts.finish(report);
-  report.plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {std::move(age)}});
+  report.plots.push_back({"Age of the contact set", kTimeLabel, "age [ms]", {age.series()}});
 }
 
 /// The clearance of each part that hands can hold, by its poses.

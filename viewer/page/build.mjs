@@ -13,6 +13,8 @@ const bundle = await build({
   format: 'esm',
   target: 'es2022',
   legalComments: 'inline',
+  // uPlot's sources have no comment that the bundle would keep.
+  banner: { js: `/*! uPlot\n${await readFile(new URL('./node_modules/uplot/LICENSE', import.meta.url), 'utf8')}*/` },
   charset: 'utf8',
   write: false,
 });
@@ -22,7 +24,7 @@ const script = bundle.outputFiles[0].text.replaceAll('</script', '<\\/script');
 const styles = ['./node_modules/uplot/dist/uPlot.min.css', './src/palette.css', './src/style.css'];
 const style = (await Promise.all(styles.map((file) => readFile(new URL(file, import.meta.url), 'utf8')))).join('\n');
 const page = (await readFile(new URL('index.html', source), 'utf8'))
-  .replace('<!--style-->', () => `<style>\n${style}</style>\n<!--report-style-->`)
+  .replace('<!--style-->', () => `<style>\n${style}</style>`)
   .replace('<!--script-->', () => `<script type="module">\n${script}</script>`);
 
 if (process.argv.includes('--check')) {

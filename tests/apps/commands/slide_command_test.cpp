@@ -4,12 +4,14 @@
 #include <cmath>
 #include <map>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <glissade/apps/text.h>
 #include <glissade/files/text_file.h>
 
 #include "glissade_program.h"
+#include "report_page.h"
 #include "temporary_folder.h"
 
 namespace glissade::apps {
@@ -385,7 +387,9 @@ TEST_F(Slide, AReportOfOneTrajectoryShowsItInThreeDimensions) {
   };
   const std::string single = page({way});
   EXPECT_THAT(single, testing::HasSubstr("report-frames\">"));
-  EXPECT_THAT(single, testing::HasSubstr("data-from=\"0.00\" data-to=\"0.20\""));
+  const nlohmann::json times = test_support::plots_of(single).at(0).at("series").at(0).at("x");
+  EXPECT_EQ(times.front(), 0.0);
+  EXPECT_EQ(times.back(), 0.2);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 
 #include "glissade_program.h"
 #include "latency_figures.h"
+#include "report_page.h"
 #include "temporary_folder.h"
 
 namespace glissade::apps {
@@ -55,9 +56,14 @@ TEST(LatencyOutput, TheReportHasAHistogramOfEachLink) {
   const test_support::TemporaryFolder folder;
   std::ostringstream page;
   page << std::ifstream(write_latency_report(given_latency_figures(), folder.path("report"))).rdbuf();
-  EXPECT_THAT(page.str(), HasSubstr("<h2>udpm://, loaded: stages</h2>"));
-  EXPECT_THAT(page.str(), HasSubstr("<h2>in process, idle: lateness</h2>"));
-  EXPECT_THAT(page.str(), HasSubstr("text-anchor=\"end\">100</text>")) << "one sample is one bar of 100 %";
+  EXPECT_THAT(test_support::titles_of(page.str()),
+              testing::IsSupersetOf({"udpm://, loaded: stages", "in process, idle: lateness"}));
+  const nlohmann::json plot = test_support::plot_of(page.str(), "in process, idle: lateness");
+  EXPECT_EQ(plot.at("x_label"), "duration [us]");
+  EXPECT_EQ(plot.at("y_label"), "share [%]");
+  EXPECT_TRUE(plot.at("steps")) << "bars";
+  for (const nlohmann::json& series : plot.at("series"))
+    EXPECT_THAT(series.at("y"), testing::Contains(100.0)) << "one sample is one bar of 100 %";
 }
 
 TEST(LatencyOutput, TheReportShowsASliceInThreeDimensions) {
@@ -68,14 +74,14 @@ TEST(LatencyOutput, TheReportShowsASliceInThreeDimensions) {
     return page.str();
   };
   LatencyFigures figures = given_latency_figures();
-  EXPECT_EQ(page_of(figures).find("report-frames"), std::string::npos) << "nothing was kept";
+  EXPECT_EQ(page_of(figures).find("id=\"report-frames\""), std::string::npos) << "nothing was kept";
   const auto slice = std::make_shared<SessionRecorder>(2, 1, 1);
   devices::HapticState state;
   slice->record(state);
   state.time = std::chrono::milliseconds(20);
   slice->record(state);
   figures.slice = slice;
-  EXPECT_THAT(page_of(figures), HasSubstr("report-frames"));
+  EXPECT_THAT(page_of(figures), HasSubstr("id=\"report-frames\""));
 }
 
 TEST(LatencyCommand, WrongDurationsAreRefused) {

@@ -92,7 +92,7 @@ TEST_F(RecordingCommands, AReplayTellsWhereItsReportIs) {
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   const std::string page = folder_.path("report/index.html");
   EXPECT_THAT(result.standard_output, HasSubstr("report: " + page + "\n"));
-  EXPECT_THAT(read_text_file(page), HasSubstr("report-frames"));
+  EXPECT_THAT(read_text_file(page), HasSubstr("id=\"report-frames\""));
 }
 
 TEST_F(RecordingCommands, ASceneThatHasChangedIsRefused) {

@@ -1,10 +1,13 @@
-// Colours of the scene and the plots, from the style sheet: they follow the light or dark scheme.
+// Colours of the scene and the plots, from the palette: they follow the light or dark scheme.
 
 export function cssColor(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(`--${name}`).trim();
 }
 
-export const SERIES = ['c0', 'c1', 'c2', 'c3', 'c4', 'c5'];
+// The name of the colour of the line with this number: there are six, in turn.
+export function lineColor(i) {
+  return `c${i % 6}`;
+}
 
 export function onSchemeChange(listener) {
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', listener);

@@ -2,7 +2,7 @@ import './language.js';
 import { Connection } from './connection.js';
 import { Controls } from './controls.js';
 import { parseModel } from './model.js';
-import { isReport, LinkedPlots, reportData } from './report.js';
+import { isReport, replayData, ReportPlots } from './report.js';
 import { Stage } from './stage.js';
 import { rowsOf, rowsOfObject, showRows } from './status.js';
 import { Strips } from './strips.js';
@@ -72,11 +72,15 @@ function say(text) {
 
 async function showReport() {
   document.body.classList.add('report');
-  const { model, wholeModel, frames } = reportData();
-  const page = new Page(new Timeline(frames));
-  page.plots = new LinkedPlots(page.timeline);
-  page.setModel(await parseModel(model));
-  if (wholeModel) page.stage.setWholeModel(await parseModel(wholeModel));
+  const replay = replayData();
+  const timeline = new Timeline(replay?.frames);
+  const plots = new ReportPlots(timeline); // also where there is no WebGL for the rest
+  byId('viewer').hidden = !replay;
+  if (!replay) return undefined;
+  const page = new Page(timeline);
+  page.plots = plots;
+  page.setModel(await parseModel(replay.model));
+  if (replay.wholeModel) page.stage.setWholeModel(await parseModel(replay.wholeModel));
   return page;
 }
 
@@ -165,7 +169,7 @@ function inspect(page) {
 
 try {
   const page = isReport() ? await showReport() : showLive();
-  window.glissade = { inspect: inspect(page), page };
+  if (page) window.glissade = { inspect: inspect(page), page };
 } catch (error) {
   byId('wait').textContent = `The scene cannot be shown: ${error.message}`;
   say('no picture');

@@ -1,65 +1,147 @@
-// The data of a report, and the link between its plots and the view.
+// A report: its data, and its plots.
 
+import uPlot from 'uplot';
+import { Charts } from './charts.js';
+import { cssColor, lineColor } from './colors.js';
 import { decodeFrames } from './frame.js';
 
+const byId = (id) => document.getElementById(id);
+
 function bytesOf(id) {
-  const text = atob(document.getElementById(id).textContent.trim());
+  const text = atob(byId(id).textContent.trim());
   return Uint8Array.from(text, (character) => character.charCodeAt(0)).buffer;
 }
 
 export function isReport() {
-  return document.getElementById('report-frames') !== null;
+  return byId('report-plots') !== null;
 }
 
-export function reportData() {
-  const hasWhole = document.getElementById('report-whole-model') !== null;
+// The run in three dimensions, if the report has it.
+export function replayData() {
+  if (!byId('report-frames')) return undefined;
   return {
     model: bytesOf('report-model'),
-    wholeModel: hasWhole ? bytesOf('report-whole-model') : undefined,
+    wholeModel: byId('report-whole-model') ? bytesOf('report-whole-model') : undefined,
     frames: decodeFrames(bytesOf('report-frames')),
   };
 }
 
-// A click on a plot over time goes to that moment, and a line shows the moment in all plots. A plot says in data-from,
-// data-to, data-left, data-right, data-top and data-bottom which times in seconds lie where in its drawing.
-export class LinkedPlots {
+function append(parent, tag, text = '') {
+  const element = Object.assign(document.createElement(tag), { textContent: text });
+  parent.append(element);
+  return element;
+}
+
+// What is nothing to a hand, a millionth of a newton, a millimetre or a degree, is flat, as is noise of rounding. A flat
+// line is drawn in the middle.
+function rangeOf(low, high) {
+  const largest = Math.max(Math.abs(low), Math.abs(high));
+  if (high - low > Math.max(1e-9 * largest, 1e-6)) return uPlot.rangeNum(low, high, 0.1, true);
+  const room = largest > 1e-6 ? 0.5 * largest : 1;
+  return [low - room, high + room];
+}
+
+const WHOLE_STEPS = Array.from({ length: 30 }, (_, i) => [1, 2, 5][i % 3] * 10 ** Math.floor(i / 3));
+const AXIS = { font: '12px system-ui, sans-serif', labelFont: '13px system-ui, sans-serif', labelSize: 20 };
+const X_AXIS = { ...AXIS, size: 28, space: 70 };
+const Y_AXIS = { ...AXIS, size: 58 }; // the same in all plots, so that times lie below each other
+const ROOM = 10; // above what is drawn, in pixels
+const ROW = 40; // of a strip: its name, and below it the strip
+const NAME = 18;
+
+const number = (value) => (Number.isFinite(value) ? `${Number(value.toPrecision(5))}` : null);
+
+// The last point before the cursor: its value holds.
+function heldAt(u, line, nearest, x) {
+  let i = nearest;
+  while (i >= 0 && (u.data[0][i] > x || u.data[line][i] === undefined)) --i;
+  return i < 0 ? null : i;
+}
+
+// What curves and strips share. Those over time zoom together.
+function optionsOf({ title, x_label: label, series, over_time: overTime, steps, words }) {
+  return {
+    name: title, overTime,
+    names: series.map((one) => one.name),
+    x: { label, value: (u) => (u.cursor.left < 0 ? null : number(u.posToVal(u.cursor.left, 'x'))) },
+    cursor: {
+      y: false, drag: { dist: 5 },
+      ...(overTime && { sync: { key: 'time', setSeries: false } }),
+      ...((steps || words) && { dataIdx: heldAt }),
+    },
+  };
+}
+
+function optionsOfCurves({ x_label: xLabel, y_label: yLabel, counts, steps }) {
+  return {
+    height: 300,
+    padding: [ROOM, 16, 0, 0],
+    line: { value: (_, value) => number(value), ...(steps && { paths: uPlot.paths.stepped({ align: 1 }) }) },
+    scales: { x: { time: false }, y: { range: (_, low, high) => rangeOf(low, high) } },
+    axes: [{ ...X_AXIS, label: xLabel }, { ...Y_AXIS, label: yLabel, ...(counts && { incrs: WHOLE_STEPS }) }],
+  };
+}
+
+// Words over time, one strip below the other: each word has a colour.
+function optionsOfStrips(plot) {
+  return {
+    height: ROOM + ROW * plot.series.length + X_AXIS.size + X_AXIS.labelSize,
+    padding: [ROOM, 16, 0, Y_AXIS.size + Y_AXIS.labelSize],
+    line: { paths: () => null, value: (_, word) => plot.words[word] ?? null },
+    scales: { x: { time: false }, y: { range: [0, 1] } },
+    axes: [{ ...X_AXIS, label: plot.x_label }, { show: false }],
+    legend: { markers: { show: false, stroke: 'inherit' } },
+    hooks: { drawAxes: [(u) => drawStrips(u, plot)] },
+  };
+}
+
+function drawStrips(u, { series }) {
+  const { ctx, bbox: { left, top, width } } = u;
+  const pixel = devicePixelRatio;
+  const xOf = (time) => Math.min(Math.max(u.valToPos(time, 'x', true), left), left + width);
+  ctx.save();
+  ctx.font = `${13 * pixel}px system-ui, sans-serif`;
+  ctx.textAlign = 'left';
+  ctx.textBaseline = 'alphabetic';
+  series.forEach(({ name, x, y }, row) => {
+    const begin = top + ROW * pixel * row;
+    ctx.fillStyle = cssColor('quiet');
+    ctx.fillText(name, left, begin + 0.7 * NAME * pixel);
+    for (let i = 0; i + 1 < x.length; ++i) {
+      ctx.fillStyle = cssColor(lineColor(y[i]));
+      ctx.fillRect(xOf(x[i]), begin + NAME * pixel, xOf(x[i + 1]) - xOf(x[i]), NAME * pixel);
+    }
+  });
+  ctx.restore();
+}
+
+function addWords(section, { words, series }) {
+  const list = append(section, 'ul');
+  words.forEach((word, i) => {
+    if (series.some(({ y }) => y.includes(i))) append(list, 'li', word).style.setProperty('--dot', `var(--${lineColor(i)})`);
+  });
+}
+
+export class ReportPlots {
   constructor(timeline) {
-    this.timeline = timeline;
-    this.plots = [...document.querySelectorAll('svg[data-from]')].map((svg) => this.link(svg));
+    this.charts = new Charts(timeline);
+    for (const plot of JSON.parse(byId('report-plots').textContent)) this.add(plot);
   }
 
-  link(svg) {
-    const place = Object.fromEntries(['from', 'to', 'left', 'right', 'top', 'bottom'].map((key) => [key, Number(svg.dataset[key])]));
-    const line = document.createElementNS('http://www.w3.org/2000/svg', 'line');
-    line.setAttribute('class', 'moment');
-    line.setAttribute('y1', place.top);
-    line.setAttribute('y2', place.bottom);
-    svg.append(line);
-    const seek = (event) => {
-      const box = svg.getBoundingClientRect();
-      const x = ((event.clientX - box.left) / box.width) * svg.viewBox.baseVal.width;
-      const share = Math.min(Math.max((x - place.left) / (place.right - place.left), 0), 1);
-      this.timeline.seek(this.timeline.first + place.from + share * (place.to - place.from));
-    };
-    svg.addEventListener('pointerdown', (event) => {
-      svg.setPointerCapture(event.pointerId);
-      seek(event);
-    });
-    svg.addEventListener('pointermove', (event) => {
-      if (event.buttons & 1) seek(event);
-    });
-    return { line, place };
+  add(plot) {
+    const section = append(byId('plots'), 'section');
+    append(section, 'h2', plot.title);
+    if (plot.series.every(({ y }) => y.every((value) => value === null))) {
+      append(section, 'p', 'no data');
+      return;
+    }
+    if (plot.words) addWords(section, plot);
+    // Lines may have values at different times: where one has none, it goes on to its next.
+    const data = uPlot.join(plot.series.map(({ x, y }) => [x, y]));
+    this.charts.add(append(section, 'div'), data, { ...optionsOf(plot), ...(plot.words ? optionsOfStrips(plot) : optionsOfCurves(plot)) });
   }
 
   show() {
-    const { frame } = this.timeline;
-    if (!frame) return;
-    const time = frame.time - this.timeline.first;
-    for (const { line, place } of this.plots) {
-      const share = (time - place.from) / (place.to - place.from);
-      const x = place.left + Math.min(Math.max(share, 0), 1) * (place.right - place.left);
-      line.setAttribute('x1', x);
-      line.setAttribute('x2', x);
-    }
+    this.charts.showMoments();
   }
 }

@@ -92,14 +92,10 @@ export function launch() {
 // What a browser says of a server that has ended.
 const LOST = /^(WebSocket connection to .* failed|Failed to load resource: net::ERR_CONNECTION_(REFUSED|RESET|CLOSED) )/;
 
-// A page, with what it asked for and what went wrong in it. `close` checks both.
-export async function open(browser, url, { language, ...options } = {}) {
+// A page, with what it asked for and what went wrong in it. `close` checks both. `prepare` runs in it before its scripts.
+export async function open(browser, url, { prepare, isReady = inspectsModel, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, ...options });
-  if (language) {
-    await context.addInitScript((name) => {
-      Object.defineProperty(Navigator.prototype, 'language', { configurable: true, get: () => name });
-    }, language);
-  }
+  if (prepare) await context.addInitScript(prepare);
   const page = await context.newPage();
   page.faults = [];
   page.requests = [];
@@ -111,9 +107,11 @@ export async function open(browser, url, { language, ...options } = {}) {
   page.on('request', (request) => page.requests.push(request.url()));
   page.on('websocket', (socket) => page.requests.push(socket.url()));
   await page.goto(url);
-  await eventually(async () => (await inspect(page))?.triangles > 0, () => page.faults.join('\n'));
+  await eventually(() => isReady(page), () => page.faults.join('\n'));
   return page;
 }
+
+const inspectsModel = async (page) => (await inspect(page))?.triangles > 0;
 
 // Closes the page. Nothing went wrong in it, and it asked nothing of any other machine, of any other server of this one,
 // or, opened from disk, of any other file. Where its server has ended meanwhile, the browser tells of that.
