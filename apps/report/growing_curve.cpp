@@ -50,4 +50,17 @@ PlotSeries GrowingCurve::series() const {
   return series;
 }
 
+Plot GrowingPlot::plot() const {
+  Plot plot = plot_;
+  for (const GrowingCurve& curve : curves_)
+    plot.series.push_back(curve.series());
+  return plot;
+}
+
+void VectorPlot::add(double time_s, const Eigen::Vector3d& value) {
+  plot_.add(0, time_s, value.norm());
+  for (Eigen::Index i = 0; i < 3; ++i)
+    plot_.add(static_cast<std::size_t>(i + 1), time_s, value[i]);
+}
+
 }  // namespace glissade::apps

@@ -62,36 +62,12 @@ nlohmann::json series_json(const PlotSeries& series) {
 }
 
 nlohmann::json plot_json(const Plot& plot) {
-  nlohmann::json json{{"title", plot.title},
-                      {"x_label", plot.x_label},
-                      {"y_label", plot.y_label},
-                      {"counts", plot.counts},
-                      {"steps", plot.steps},
-                      {"over_time", plot.x_label == kTimeLabel},
-                      {"series", nlohmann::json::array()}};
+  nlohmann::json json{{"title", plot.title},     {"x_label", plot.x_label},
+                      {"y_label", plot.y_label}, {"counts", plot.counts},
+                      {"steps", plot.steps},     {"over_time", plot.x_label == kTimeLabel},
+                      {"words", plot.words},     {"series", nlohmann::json::array()}};
   for (const PlotSeries& series : plot.series)
     json["series"].push_back(series_json(series));
-  return json;
-}
-
-/// A plot of the numbers of words: each strip is a line.
-nlohmann::json chart_json(const StripChart& chart) {
-  constexpr std::size_t kMostSpans = 1500;
-  Plot plot{chart.title, kTimeLabel, "", {}};
-  for (const Strip& strip : chart.strips) {
-    PlotSeries series{strip.name, {}, {}};
-    const auto add = [&](double time, std::size_t word) {
-      series.x.push_back(time);
-      series.y.push_back(static_cast<double>(word));
-    };
-    const Strip shown = coarsened(strip, kMostSpans);
-    for (const StripSpan& span : shown.spans)
-      add(span.begin, span.word);
-    if (!shown.spans.empty()) add(shown.spans.back().end, shown.spans.back().word);
-    plot.series.push_back(std::move(series));
-  }
-  nlohmann::json json = plot_json(plot);
-  json["words"] = chart.words;
   return json;
 }
 
@@ -100,8 +76,6 @@ std::string plots_element(const Report& report) {
   nlohmann::json json = nlohmann::json::array();
   for (const Plot& plot : report.plots)
     json.push_back(plot_json(plot));
-  for (const StripChart& chart : report.strips)
-    json.push_back(chart_json(chart));
   std::string html = "<script type=\"application/json\" id=\"report-plots\">";
   for (const char character : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
     html += character == '<' ? std::string("\\u003c") : std::string(1, character);

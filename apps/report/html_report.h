@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <glissade/apps/report/plot.h>
-#include <glissade/apps/report/strip_chart.h>
 
 namespace glissade::apps {
 
@@ -25,8 +24,7 @@ struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: name, and value with unit
   std::vector<Plot> plots;
-  std::vector<StripChart> strips{};  ///< below the plots
-  std::optional<Replay> replay{};    ///< above the summary
+  std::optional<Replay> replay{};  ///< above the summary
 };
 
 /// The page as HTML; texts are plain text and escaped here.

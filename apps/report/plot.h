@@ -26,6 +26,9 @@ struct Plot {
   std::vector<PlotSeries> series;
   bool counts = false;  ///< of things: the axis of values has whole numbers only
   bool steps = false;   ///< a value holds up to the next point
+  /// If not empty, the values are numbers of these words, in colours: each line is a strip, and a word holds up to the
+  /// next point.
+  std::vector<std::string> words{};
 };
 
 }  // namespace glissade::apps

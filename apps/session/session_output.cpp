@@ -13,7 +13,6 @@
 
 #include <glissade/apps/durations.h>
 #include <glissade/apps/report/html_report.h>
-#include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/say.h>
@@ -175,14 +174,15 @@ double seconds_of_tick(const SessionRecorder& samples, std::size_t i) {
 void add_plots(const SessionSummary& summary, const Session& session, Report& report) {
   const SessionRecorder& samples = *session.samples;
   for (std::size_t h = 0; h < samples.hands(); ++h) {
-    VectorCurve force;
-    VectorCurve torque;
+    const std::string of_hand = " on the " + name_of_hand(session, h);
+    VectorPlot force("Force" + of_hand, "force [N]");
+    VectorPlot torque("Torque" + of_hand, "torque [Nm]");
     for (std::size_t i = 0; i < samples.size(); ++i) {
       force.add(seconds_of_tick(samples, i), samples.hand(i, h).force_W);
       torque.add(seconds_of_tick(samples, i), samples.hand(i, h).torque_V_W);
     }
-    report.plots.push_back(force.plot("Force on the " + name_of_hand(session, h), "force [N]"));
-    report.plots.push_back(torque.plot("Torque on the " + name_of_hand(session, h), "torque [Nm]"));
+    report.plots.push_back(force.plot());
+    report.plots.push_back(torque.plot());
   }
   std::vector<std::string> names;
   for (const PartSummary& part : summary.parts)

@@ -13,16 +13,16 @@ namespace glissade::apps {
 
 namespace {
 
-std::string name_of_hand(std::size_t hand) {
-  return "hand " + std::to_string(hand);
+std::vector<std::string> names_of_hands(std::size_t count) {
+  std::vector<std::string> names;
+  for (std::size_t h = 0; h < count; ++h)
+    names.push_back("hand " + std::to_string(h));
+  return names;
 }
 
 viewer::ViewScene grasp_view_of(const HapticScene& scene,
                                 const std::vector<std::shared_ptr<const grasping::HandModel>>& hands) {
-  std::vector<std::string> names;
-  for (std::size_t h = 0; h < hands.size(); ++h)
-    names.push_back(name_of_hand(h));
-  viewer::ViewScene view = view_scene_of(scene, names, hands);
+  viewer::ViewScene view = view_scene_of(scene, names_of_hands(hands.size()), hands);
   view.has_loop = false;
   return view;
 }
@@ -38,20 +38,19 @@ GraspReport::GraspReport(const HapticScene& scene, const grasping::GraspSimulati
     : scene_(scene),
       simulation_(simulation),
       replay_(grasp_view_of(scene, hands)),
-      forces_(scene.parts.size()),
-      torques_(scene.parts.size()),
+      touching_({"Segments that touch", kTimeLabel, "segments", {}, true}, names_of_hands(hands.size())),
       parts_(names_of_parts(scene)) {
-  for (std::int32_t kind = 0; kind < hands::kGraspTypes; ++kind)
-    kinds_.words.emplace_back(hands::name_of(static_cast<hands::GraspType>(kind)));
-  for (std::size_t h = 0; h < hands.size(); ++h) {
-    touching_.emplace_back(name_of_hand(h));
-    kinds_.strips.push_back({name_of_hand(h), {}});
-  }
+  for (const std::string& name : names_of_hands(hands.size()))
+    kinds_.emplace_back(name);
   for (std::size_t p = 0; p < simulation.part_count(); ++p) {
     patches_.emplace_back(simulation.parts().part(p).radius());
   }
-  for (std::size_t p = 0; p < scene.parts.size(); ++p)
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    const std::string of_part = " of " + scene.parts[p].name + " on the hands";
+    forces_.emplace_back("Force" + of_part, "force [N]");
+    torques_.emplace_back("Torque" + of_part + ", about its reference point", "torque [Nm]");
     clearances_.emplace_back(scene, ticks, p);
+  }
 }
 
 void GraspReport::add(std::chrono::nanoseconds time) {
@@ -82,25 +81,24 @@ void GraspReport::add(std::chrono::nanoseconds time) {
     hand.part = part ? static_cast<std::int32_t>(*part) : -1;
     hand.visible = simulation_.visible(h);
     const auto& touching = simulation_.clasp(h).touching();
-    touching_[h].add(time_s, static_cast<double>(std::count_if(touching.begin(), touching.end(),
-                                                               [](char touches) { return touches != 0; })));
-    kinds_.strips[h].add(time_s, static_cast<std::size_t>(hand.visible.grasp));
-    kinds_.strips[h].end_at(time_s);
+    const auto count = std::count_if(touching.begin(), touching.end(), [](char touches) { return touches != 0; });
+    touching_.add(h, time_s, static_cast<double>(count));
+    kinds_[h].add(time_s, static_cast<std::size_t>(hand.visible.grasp));
   }
   replay_.add(state);
 }
 
 Report GraspReport::finish(const GraspOutcome& outcome) {
   Report report{"glissade grasp: " + scene_.source, outcome.rows(), {}};
-  Plot touching{.title = "Segments that touch", .x_label = kTimeLabel, .y_label = "segments", .counts = true};
-  for (const GrowingCurve& curve : touching_)
-    touching.series.push_back(curve.series());
-  report.plots.push_back(std::move(touching));
-  report.strips.push_back(std::move(kinds_));
+  Plot kinds{.title = "Kind of grasp", .x_label = kTimeLabel};
+  for (std::int32_t kind = 0; kind < hands::kGraspTypes; ++kind)
+    kinds.words.emplace_back(hands::name_of(static_cast<hands::GraspType>(kind)));
+  for (const WordCurve& curve : kinds_)
+    kinds.series.push_back(curve.series());
+  report.plots = {std::move(kinds), touching_.plot()};
   for (std::size_t p = 0; p < scene_.parts.size(); ++p) {
-    const std::string of_part = " of " + scene_.parts[p].name + " on the hands";
-    report.plots.push_back(forces_[p].plot("Force" + of_part, "force [N]"));
-    report.plots.push_back(torques_[p].plot("Torque" + of_part + ", about its reference point", "torque [Nm]"));
+    report.plots.push_back(forces_[p].plot());
+    report.plots.push_back(torques_[p].plot());
   }
   parts_.finish(report);
   Plot clearance = clearance_plot();

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <glissade/apps/report/html_report.h>
-#include <glissade/apps/report/vector_curve.h>
+#include <glissade/apps/report/word_curve.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/apps/view/grasp_outcome.h>
@@ -37,10 +37,10 @@ class GraspReport {
   ReplayMaker replay_;
   std::vector<contact::ContactPatches> patches_;  // by part
   std::int64_t ticks_ = 0;
-  StripChart kinds_{"Kind of grasp", {}, {}};
-  std::vector<GrowingCurve> touching_;  // by hand: segments
-  std::vector<VectorCurve> forces_;     // by part
-  std::vector<VectorCurve> torques_;
+  std::vector<WordCurve> kinds_;  // of grasps, by hand
+  GrowingPlot touching_;
+  std::vector<VectorPlot> forces_;  // by part
+  std::vector<VectorPlot> torques_;
   PartCurves parts_;
   std::vector<ClearanceCurve> clearances_;  // by part
   std::vector<Eigen::Isometry3d> others_X_WB_;

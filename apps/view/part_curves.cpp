@@ -6,41 +6,31 @@
 
 namespace glissade::apps {
 
-PartCurves::PartCurves(const std::vector<std::string>& names) {
-  for (std::int32_t state = 0; state < devices::kPartStates; ++state)
-    states_.words.emplace_back(devices::name_of(devices::part_state_from_number(state)));
-  for (const std::string& name : names) {
-    lags_mm_.emplace_back(name);
-    lags_deg_.emplace_back(name);
-    contacts_.emplace_back(name);
-    states_.strips.push_back({name, {}});
-  }
-}
+PartCurves::PartCurves(const std::vector<std::string>& names)
+    : lags_({"Lag of the visible parts behind their ghosts", kTimeLabel, "lag of the reference point [mm]", {}}, names),
+      angles_({"Angle between the visible parts and their ghosts", kTimeLabel, "angle [degrees]", {}}, names),
+      contacts_({"Contacts that push", kTimeLabel, "contacts", {}, true}, names),
+      states_(names.begin(), names.end()) {}
 
 void PartCurves::add(double time_s, std::size_t part, const devices::HapticPartState& state) {
   constexpr double kRounding = 1e-9;  // mm or degrees; an axis of less would tell of nothing else
-  const auto add_lag = [time_s](GrowingCurve& curve, double lag) { curve.add(time_s, lag > kRounding ? lag : 0.0); };
+  const auto add_lag = [&](GrowingPlot& plot, double lag) { plot.add(part, time_s, lag > kRounding ? lag : 0.0); };
   const geometry::Displacement lag = state.lag();
-  add_lag(lags_mm_[part], 1e3 * lag.v.norm());
-  add_lag(lags_deg_[part], lag.w.norm() * 180.0 / std::numbers::pi);
-  contacts_[part].add(time_s, state.contact_count);
-  states_.strips[part].add(time_s, static_cast<std::size_t>(state.state));
-  states_.strips[part].end_at(time_s);
+  add_lag(lags_, 1e3 * lag.v.norm());
+  add_lag(angles_, lag.w.norm() * 180.0 / std::numbers::pi);
+  contacts_.add(part, time_s, state.contact_count);
+  states_[part].add(time_s, static_cast<std::size_t>(state.state));
 }
 
-void PartCurves::finish(Report& report) {
-  Plot lags{"Lag of the visible parts behind their ghosts", kTimeLabel, "lag of the reference point [mm]", {}};
-  Plot angles{"Angle between the visible parts and their ghosts", kTimeLabel, "angle [degrees]", {}};
-  Plot contacts{.title = "Contacts that push", .x_label = kTimeLabel, .y_label = "contacts", .counts = true};
-  for (std::size_t part = 0; part < lags_mm_.size(); ++part) {
-    lags.series.push_back(lags_mm_[part].series());
-    angles.series.push_back(lags_deg_[part].series());
-    contacts.series.push_back(contacts_[part].series());
-  }
-  report.plots.push_back(std::move(lags));
-  report.plots.push_back(std::move(angles));
-  report.plots.push_back(std::move(contacts));
-  report.strips.push_back(std::move(states_));
+void PartCurves::finish(Report& report) const {
+  for (const GrowingPlot* plot : {&lags_, &angles_, &contacts_})
+    report.plots.push_back(plot->plot());
+  Plot states{.title = "States of the parts", .x_label = kTimeLabel};
+  for (std::int32_t state = 0; state < devices::kPartStates; ++state)
+    states.words.emplace_back(devices::name_of(devices::part_state_from_number(state)));
+  for (const WordCurve& curve : states_)
+    states.series.push_back(curve.series());
+  report.plots.push_back(std::move(states));
 }
 
 }  // namespace glissade::apps

@@ -8,6 +8,7 @@
 
 #include <glissade/apps/report/growing_curve.h>
 #include <glissade/apps/report/html_report.h>
+#include <glissade/apps/report/word_curve.h>
 #include <glissade/devices/haptic_state.h>
 
 namespace glissade::apps {
@@ -19,14 +20,14 @@ class PartCurves {
 
   /// The state of the part with this number. Its times ascend from call to call.
   void add(double time_s, std::size_t part, const devices::HapticPartState& state);
-  /// Adds plots of lag and contacts, and the states as strips. Once, at the end.
-  void finish(Report& report);
+  /// Adds plots of lag, contacts and states. At the end.
+  void finish(Report& report) const;
 
  private:
-  std::vector<GrowingCurve> lags_mm_;
-  std::vector<GrowingCurve> lags_deg_;
-  std::vector<GrowingCurve> contacts_;
-  StripChart states_{"States of the parts", {}, {}};
+  GrowingPlot lags_;
+  GrowingPlot angles_;
+  GrowingPlot contacts_;
+  std::vector<WordCurve> states_;
 };
 
 }  // namespace glissade::apps

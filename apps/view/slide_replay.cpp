@@ -41,9 +41,9 @@ void SlideReplay::add(std::chrono::nanoseconds time, const reference::SlidingSim
 }
 
 void SlideReplay::finish(Report& report, const std::string& of) {
-  report.plots.insert(report.plots.begin(),
-                      {force_.plot("Force on the hand" + of, "force [N]"),
-                       torque_.plot("Torque on the hand about the reference point of the part" + of, "torque [Nm]")});
+  const auto first = report.plots.insert(report.plots.begin(), {force_.plot(), torque_.plot()});
+  first[0].title += of;
+  first[1].title += of;
   part_.finish(report);
   report.replay = maker_.finish();
 }

@@ -7,7 +7,6 @@
 #include <string>
 
 #include <glissade/apps/report/html_report.h>
-#include <glissade/apps/report/vector_curve.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
@@ -27,8 +26,8 @@ class SlideReplay {
 
  private:
   ReplayMaker maker_;
-  VectorCurve force_;
-  VectorCurve torque_;
+  VectorPlot force_{"Force on the hand", "force [N]"};
+  VectorPlot torque_{"Torque on the hand about the reference point of the part", "torque [Nm]"};
   PartCurves part_;
   contact::ContactPatches patches_;
   std::int64_t ticks_ = 0;

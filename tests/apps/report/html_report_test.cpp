@@ -56,8 +56,9 @@ TEST(HtmlReport, APlotHasItsLinesLabelsAndGaps) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   report.plots[0].series[0] = {"x", {0.0, 0.001, 1000.001}, {1.0 / 3.0, nan, -2e-9}};
   report.plots.push_back({.title = "hits", .x_label = "force [N]", .y_label = "hits", .counts = true});
+  report.plots.push_back({.title = "States", .x_label = "time [s]", .words = {"free", "sliding"}});
   const nlohmann::json plots = test_support::plots_of(html_report(report));
-  ASSERT_EQ(plots.size(), 2u);
+  ASSERT_EQ(plots.size(), 3u);
   const nlohmann::json& force = plots[0];
   EXPECT_EQ(force.at("title"), "Force on the hand");
   EXPECT_EQ(force.at("x_label"), "time [s]");
@@ -68,17 +69,8 @@ TEST(HtmlReport, APlotHasItsLinesLabelsAndGaps) {
   EXPECT_EQ(force.at("series")[1].at("name"), "y");
   EXPECT_EQ(plots[1].at("over_time"), false);
   EXPECT_EQ(plots[1].at("counts"), true);
-}
-
-TEST(HtmlReport, AStripIsALineOfTheNumbersOfItsWords) {
-  Report report{"strips", {}, {}};
-  report.strips.push_back({"States", {"free", "sliding", "never"}, {{"peg", {{0.0, 1.5, 0}, {1.5, 2.0, 1}}}}});
-  const nlohmann::json plot = test_support::plot_of(html_report(report), "States");
-  EXPECT_EQ(plot.at("words"), nlohmann::json({"free", "sliding", "never"}));
-  EXPECT_EQ(plot.at("over_time"), true);
-  EXPECT_EQ(plot.at("series")[0].at("name"), "peg");
-  EXPECT_EQ(plot.at("series")[0].at("x"), nlohmann::json({0.0, 1.5, 2.0}));
-  EXPECT_EQ(plot.at("series")[0].at("y"), nlohmann::json({0, 1, 1}));
+  EXPECT_EQ(plots[1].at("words"), nlohmann::json::array());
+  EXPECT_EQ(plots[2].at("words"), nlohmann::json({"free", "sliding"}));
 }
 
 TEST(HtmlReport, NoNameEndsTheData) {

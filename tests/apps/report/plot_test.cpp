@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <glissade/apps/report/growing_curve.h>
-#include <glissade/apps/report/strip_chart.h>
+#include <glissade/apps/report/word_curve.h>
 
 namespace glissade::apps {
 namespace {
@@ -56,34 +58,32 @@ TEST(GrowingCurve, KeepsPeaksEndsAndOrderOfALongRunInBoundedMemory) {
     ASSERT_EQ(few.y[i], points.y[static_cast<std::size_t>(few.x[i])]) << "points of the line itself";
 }
 
-TEST(Strip, EqualWordsAreOneSpan) {
-  Strip strip{"part", {}};
-  strip.add(0.0, 2);
-  strip.add(1.0, 2);
-  strip.add(2.0, 1);
-  strip.end_at(2.5);
-  ASSERT_EQ(strip.spans.size(), 2u);
-  EXPECT_EQ(strip.spans[0].end, 2.0);
-  EXPECT_EQ(strip.spans[1].word, 1u);
-  EXPECT_EQ(strip.spans[1].end, 2.5);
+TEST(WordCurve, AWordHoldsUpToTheNextOne) {
+  WordCurve curve("part");
+  EXPECT_TRUE(curve.series().x.empty());
+  for (const auto& [time, word] : {std::pair(0.0, 2), std::pair(1.0, 2), std::pair(2.0, 1), std::pair(2.5, 1)})
+    curve.add(time, static_cast<std::size_t>(word));
+  const PlotSeries series = curve.series();
+  EXPECT_EQ(series.name, "part");
+  EXPECT_EQ(series.x, (std::vector<double>{0.0, 2.0, 2.5}));
+  EXPECT_EQ(series.y, (std::vector<double>{2, 1, 1}));
 }
 
-TEST(Strip, OfManySpansTheLongestInEachStretchIsKept) {
+TEST(WordCurve, OfManyWordsTheLongestInEachStretchIsKept) {
   // Two states that alternate 1000 times: for 3 ms and 1 ms, and in the second half the other way round.
-  Strip strip{"part", {}};
+  WordCurve curve("part");
   for (int i = 0; i < 2000; ++i) {
     const bool is_late = i >= 1000;
-    strip.add(0.004 * i, is_late ? 1 : 0);
-    strip.add(0.004 * i + 0.003, is_late ? 0 : 1);
+    curve.add(0.004 * i, is_late ? 1 : 0);
+    curve.add(0.004 * i + 0.003, is_late ? 0 : 1);
   }
-  strip.end_at(8.0);
-  const Strip coarse = coarsened(strip, 100);
-  ASSERT_EQ(coarse.spans.size(), 2u);
-  EXPECT_EQ(coarse.spans[0].word, 0u);
-  EXPECT_NEAR(coarse.spans[0].end, 4.0, 1e-9);
-  EXPECT_EQ(coarse.spans[1].word, 1u);
-  EXPECT_EQ(coarse.spans[1].end, 8.0);
-  EXPECT_EQ(coarsened(coarse, 100).spans.size(), 2u);
+  curve.add(8.0, 0);
+  const PlotSeries coarse = curve.series(100);
+  ASSERT_EQ(coarse.x.size(), 3u);
+  EXPECT_NEAR(coarse.x[1], 4.0, 1e-9);
+  EXPECT_EQ(coarse.x[2], 8.0);
+  EXPECT_EQ(coarse.y, (std::vector<double>{0, 1, 1}));
+  EXPECT_EQ(curve.series(5000).x.size(), 4000u) << "each begin, of which two are one, and the end";
 }
 
 }  // namespace

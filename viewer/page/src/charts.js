@@ -3,8 +3,15 @@
 import uPlot from 'uplot';
 import { cssColor, lineColor, onSchemeChange } from './colors.js';
 
-const axis = (options) => ({
-  stroke: () => cssColor('quiet'), grid: { stroke: () => cssColor('grid'), width: 1 }, ticks: { show: false }, ...options,
+// With the decimals of the step between them, as far as there is room, in any language.
+function labelsOf(u, values, axis, space, step) {
+  const isWhole = (x) => Math.abs(x - Math.round(x)) < 1e-6 * x;
+  const decimals = [0, 1, 2, 3, 4, 5].find((d) => isWhole(step * 10 ** d));
+  return values.map((value) => (decimals === undefined ? Number(value.toPrecision(3)).toExponential() : value.toFixed(decimals)));
+}
+
+const axisOf = (options) => ({
+  stroke: () => cssColor('quiet'), grid: { stroke: () => cssColor('grid'), width: 1 }, ticks: { show: false }, values: labelsOf, ...options,
 });
 
 const widthOf = (container) => Math.max(container.clientWidth, 100);
@@ -31,7 +38,7 @@ export class Charts {
   add(container, data, { name, names, x, line, axes, overTime, hooks, legend, ...options }) {
     const plot = new uPlot({
       width: widthOf(container),
-      axes: axes.map(axis),
+      axes: axes.map(axisOf),
       series: [{ ...x }, ...names.map((label, i) => (
         { label, stroke: () => cssColor(lineColor(i)), width: 1.4, points: { show: false }, ...line }))],
       legend: { markers: { width: 0, fill: (_, i) => `var(--${lineColor(i - 1)})` }, ...legend },

@@ -67,7 +67,7 @@ function optionsOf({ title, x_label: label, series, over_time: overTime, steps, 
     cursor: {
       y: false, drag: { dist: 5 },
       ...(overTime && { sync: { key: 'time', setSeries: false } }),
-      ...((steps || words) && { dataIdx: heldAt }),
+      ...((steps || words.length > 0) && { dataIdx: heldAt }),
     },
   };
 }
@@ -135,10 +135,11 @@ export class ReportPlots {
       append(section, 'p', 'no data');
       return;
     }
-    if (plot.words) addWords(section, plot);
+    const hasWords = plot.words.length > 0;
+    if (hasWords) addWords(section, plot);
     // Lines may have values at different times: where one has none, it goes on to its next.
     const data = uPlot.join(plot.series.map(({ x, y }) => [x, y]));
-    this.charts.add(append(section, 'div'), data, { ...optionsOf(plot), ...(plot.words ? optionsOfStrips(plot) : optionsOfCurves(plot)) });
+    this.charts.add(append(section, 'div'), data, { ...optionsOf(plot), ...(hasWords ? optionsOfStrips(plot) : optionsOfCurves(plot)) });
   }
 
   show() {

@@ -19,6 +19,7 @@ const PLOTS = [
     ],
   },
   { title: 'Contacts', x_label: TIME, y_label: 'contacts', over_time: true, counts: true, series: [{ name: 'peg', x: [0, 10], y: [0, 2] }] },
+  { title: 'Torque', x_label: TIME, y_label: 'torque [Nm]', over_time: true, series: [{ name: 'peg', x: [0, 10], y: [-1e-5, 4e-5] }] },
   { title: 'Noise', x_label: TIME, y_label: 'angle [degrees]', over_time: true, series: [{ name: 'peg', x: [0, 10], y: [-1e-7, 1e-7] }] },
   { title: 'Histogram', x_label: 'duration [us]', y_label: 'share [%]', steps: true, series: [{ name: 'tick', x: [0, 50, 100], y: [20, 80, 80] }] },
   { title: 'Nothing', x_label: TIME, y_label: 'clearance [um]', over_time: true, series: [{ name: 'peg', x: [0, 1], y: [null, null] }] },
@@ -34,7 +35,7 @@ let page;
 before(async () => {
   browser = await launch();
   folder = mkdtempSync(join(tmpdir(), 'glissade_plots_'));
-  const data = JSON.stringify(PLOTS).replaceAll('<', '\\u003c');
+  const data = JSON.stringify(PLOTS.map((plot) => ({ words: [], ...plot }))).replaceAll('<', '\\u003c');
   const frame = readFileSync(new URL('../dist/index.html', import.meta.url), 'utf8');
   writeFileSync(join(folder, 'index.html'), frame.replace('<!--report-->', () =>
     `<div class="paper"><div id="plots"></div></div><script type="application/json" id="report-plots">${data}</script>`));
@@ -121,11 +122,15 @@ test('lines go through their points and break at gaps', async () => {
   assert.ok(Math.abs(at9.c0 - at5.c0) < 0.01 && at5.c0 > at9.c1, 'the magnitude is flat, and above x');
 });
 
-test('bars are flat, numbers of things whole, and noise is a line in the middle', async () => {
+const ticksOf = async (title) => (await textsOf(title)).filter((text) => /^[\d.,e-]+$/.test(text));
+
+test('bars are flat, numbers of things whole, small ones told apart, and noise is a line in the middle', async () => {
   const [low, before50, after50] = await coloursAt('Histogram', 0.1, 0.47, 0.53);
   assert.ok(Math.abs(low.c0 - before50.c0) < 0.01 && after50.c0 > before50.c0 + 0.3, JSON.stringify([low, before50, after50]));
-  const ticks = (await textsOf('Contacts')).filter((text) => /^[\d.,-]+$/.test(text));
+  const ticks = await ticksOf('Contacts');
   assert.ok(ticks.includes('1') && ticks.every((text) => Number.isInteger(Number(text))), `${ticks}`);
+  const small = (await ticksOf('Torque')).map(Number).filter((value) => value !== 0 && Math.abs(value) < 1e-3);
+  assert.ok(small.length > 3 && Math.abs(Math.max(...small) - 4e-5) < 1e-5 && Math.min(...small) < 0, `${small}`);
   const [noise] = await coloursAt('Noise', 0.3);
   assert.ok(Math.abs(noise.c0 - 0.5) < 0.02, JSON.stringify(noise));
 });
