@@ -1,5 +1,5 @@
-/// The passive stiffness at a distance from the device, where a number is zero or not finite. (`passivity_test` compares
-/// the others with eigenvalues.)
+/// The passive stiffness at a distance from the device, where a number is zero or not finite. (`passivity_test`
+/// compares the others with eigenvalues.)
 
 #include "loop/lever_limit.h"
 
