@@ -12,11 +12,11 @@ class BodiesMotion {
  public:
   virtual ~BodiesMotion() = default;
 
-  /// The poses X_WM at t. One entry for each mover.
+  /// Writes the poses X_WM of all movers at t, one entry for each mover.
   virtual void poses(double t, std::span<Eigen::Isometry3d> X_WM) const = 0;
-  /// Bound (metres) of |x(t) − x(0)| for every point x of a mover and every t.
+  /// Upper bound (metres) of |x(t) − x(0)| for every point x of a mover and every t.
   virtual double length(std::size_t mover) const = 0;
-  /// Bound (metres) of |d²x/dt²| for every point x of a mover and every t.
+  /// Upper bound (metres) of |d²x/dt²| for every point x of a mover and every t.
   virtual double acceleration(std::size_t mover) const = 0;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Rigid bodies that move at once, such as the links of a chain, among bodies that stand still meanwhile: which
-/// contacts are near, and the proof that a motion touches nothing on its whole way.
+/// Rigid bodies that move together, such as the links of a chain, among bodies that stand still. Finds the contacts
+/// nearby, and proves that a motion touches nothing on its whole path.
 
 #include <cstddef>
 #include <memory>
@@ -16,14 +16,14 @@
 
 namespace glissade::contact {
 
-/// Bodies are numbered: fixed ones first, then objects, then movers. Objects stand still while movers move; between two
-/// motions the caller may place them elsewhere. Pairs of movers are never considered, nor are pairs of the others. Not
-/// thread-safe. After the first few calls with the same bodies, only new contacts allocate.
+/// Numbers the bodies: first the fixed bodies, then the objects, then the movers. Objects stand still while movers
+/// move. Between two motions, the caller may place objects elsewhere. Only pairs of a mover with a fixed body or an
+/// object are considered. Not thread-safe. After the first few calls with the same bodies, only new contacts allocate.
 class CertifiedBodies {
  public:
-  /// The movers keep `margin` (metres) from everything as far as the user of this class can help it, and a certified
-  /// motion keeps kMinClearanceOfMargin of it. Throws std::invalid_argument as `MultiPartSliding` does for bodies,
-  /// poses and margins, and when there is no mover.
+  /// `margin` (metres) is the gap to all other bodies at which the caller should stop the movers. A certified motion
+  /// keeps a gap of at least kMinClearanceOfMargin × `margin`. Throws std::invalid_argument when there is no mover, and
+  /// as `MultiPartSliding` does for bodies, poses and margins.
   CertifiedBodies(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
                   const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin);
   CertifiedBodies(CertifiedBodies&&) noexcept;
@@ -34,36 +34,40 @@ class CertifiedBodies {
   std::size_t object_count() const;
   std::size_t mover_count() const;
   double margin() const;
-  /// The greatest of this margin and those that obstacles have of their own.
+  /// The greatest of `margin()` and the margins of the obstacles.
   double greatest_margin() const;
 
-  /// Places an object, or all movers, at rigid poses. Nothing is proved of the way there. The pose of mover i is entry
-  /// numbers[i] of X_WM.
+  /// Places an object, or all movers, at rigid poses, without a proof for the path from the old poses. The pose of
+  /// mover i is X_WM[numbers[i]].
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
   void place_movers(std::span<const Eigen::Isometry3d> X_WM, std::span<const std::size_t> numbers);
 
-  /// Whether no mover touches anything at the present poses, or comes nearer than the smallest certain distance. Exact.
+  /// Whether every mover is apart from all fixed bodies and objects at the present poses. Exact; a distance within the
+  /// bound of rounding errors counts as touching.
   bool is_free() const;
 
-  /// Finds everything within its `reach` (metres, at most 50 mm) of each mover. A search looks farther, and serves
-  /// until the mover has used this up, so movers that hardly move cost nothing. Throws std::invalid_argument for a pose
-  /// that is not rigid.
+  /// Finds everything within reach[i] (metres, at most 50 mm) of each mover i. A search covers a larger radius, and its
+  /// result serves later calls until the mover has moved by the difference. So movers that hardly move cost nothing.
+  /// Throws std::invalid_argument for a pose that is not rigid.
   void look(std::span<const double> reach);
-  /// The pairs of triangles and boxes that the last search of a mover has found: the calls below look at all of them.
+  /// Number of pairs of triangles or boxes that the last search for a mover found. The calls below examine all these
+  /// pairs.
   std::size_t pair_count(std::size_t mover) const;
-  /// Work of all calls of `look`, `find_contacts` and `certify` so far, in the unit of `SlidingRules::work_budget`:
-  /// rough.
+  /// Rough work of all calls of `look`, `find_contacts` and `certify` so far, in the unit of
+  /// `SlidingRules::work_budget`.
   std::int64_t work() const;
 
-  /// Replaces `contacts` by those within the reach of the last `look`, at the present poses. `Contact::part` is the
-  /// number of the mover, `Contact::obstacle` that of the other body; normals point to the mover. Gaps are positive.
+  /// Replaces `contacts` by the contacts within the reach of the last `look`, at the present poses. `Contact::part` is
+  /// the number of the mover, and `Contact::obstacle` is the number of the other body. Normals point to the mover. Gaps
+  /// are positive.
   void find_contacts(std::vector<Contact>& contacts);
 
-  /// Whether the motion, from the present poses, certainly touches nothing. Motions that are longer than the reach of
-  /// the last `look` cost another search. `failures` are the contacts in the way, at the present poses; without any,
-  /// the motion is too long. Does not move anything.
+  /// Proves that `motion`, from the present poses, touches nothing. Returns false if there is no proof. `failures` are
+  /// then the contacts in the way, at the present poses; without `failures`, the motion is too long. A motion longer
+  /// than the reach of the last `look` costs another search. Moves nothing.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
-  /// The same, and whether the motion also takes at most so much (metres, less than `margin()`) of every margin.
+  /// As `certify`. Also proves that the motion keeps every pair of bodies at least its margin less `most_taken` apart
+  /// (metres; `most_taken` is less than `margin()`).
   bool certify_taking(double most_taken, const BodiesMotion& motion, std::vector<Contact>& failures);
 
  private:

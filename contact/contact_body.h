@@ -1,6 +1,7 @@
 #pragma once
 
-/// A mesh prepared for sliding contact: as a part, i.e. an object that a hand or a script moves, or as an obstacle.
+/// A mesh prepared for sliding contact. It serves as a part (an object that a hand or a script moves) or as an
+/// obstacle.
 
 #include <filesystem>
 #include <memory>
@@ -21,7 +22,7 @@ class ObbTree;
 /// A mesh with its DOP-tree (a bounding-volume hierarchy), convex hull and topology. Immutable after construction, so
 /// safe to share between threads.
 struct ContactBody {
-  /// Throws std::invalid_argument for a null mesh, and as `DopTree` does. Cost O(n log n) for n triangles.
+  /// Throws std::invalid_argument for a null mesh, and otherwise as `DopTree` does. Cost O(n log n) for n triangles.
   explicit ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
   ContactBody(const ContactBody&) = delete;
   ContactBody& operator=(const ContactBody&) = delete;
@@ -30,9 +31,10 @@ struct ContactBody {
   collision::DopTree tree;
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
-  /// The triangles that own a vertex that can stop another body, and half selected those that own such an edge: an edge
-  /// stops only edges and vertices. `MeshTopology` assigns each edge and each vertex to one triangle, its owner. The
-  /// selected pairs are those that `MeshTopology::can_stop_each_other` tells.
+  /// Selects the triangles that own a vertex that can stop another body. Half selects the triangles that own an edge
+  /// that can stop another body, because an edge stops only edges and vertices. `MeshTopology` assigns each edge and
+  /// each vertex to one triangle, its owner. The selected pairs are the pairs for which
+  /// `MeshTopology::can_stop_each_other` is true.
   collision::TriangleSelection features;
 
  private:
@@ -40,21 +42,22 @@ struct ContactBody {
   std::unique_ptr<const ObbTree> obbs_;  // for path certificates
 };
 
-/// In radii of a part: how far a compliance point may be from the centre of its bounding box.
+/// The largest allowed distance of a compliance point from the centre of the part's bounding box, in radii of the part.
 inline constexpr double kFarthestPoint = 10.0;
 
 /// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
-/// reference point and a rotation about that point; the coupling, the virtual spring between hand and part, acts at the
-/// same point, the compliance point. A force at this point turns the part little, so a peg that is coupled at its tip
-/// finds its hole, where one that is coupled at its middle tips and jams. Hands with fingers are coupled where they
-/// grip the part (`MultiPartSliding::grasp`), unless the point was chosen here.
+/// reference point and a rotation about that point. The coupling, i.e. the virtual spring between hand and part, acts
+/// at the same point, which is therefore called the compliance point. A force at the compliance point turns the part
+/// little. So a peg coupled at its tip finds its hole, whereas a peg coupled at its middle tips and jams. Hands with
+/// fingers are coupled where they grip the part (`MultiPartSliding::grasp`), unless the compliance point was given to
+/// the constructor.
 class SlidingPart : public ContactBody {
  public:
-  /// The compliance point is the centre of the bounding box: no point of the part is much farther from it than half of
-  /// the part's size, and a rotation moves the points of the part little. Throws as `ContactBody` does.
+  /// The compliance point is the centre of the bounding box, so a rotation moves the points of the part little. Throws
+  /// as `ContactBody` does.
   explicit SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
 
-  /// The compliance point is `p_Vref` (metres). Throws std::invalid_argument also for a point that is not finite, or
+  /// The compliance point is `p_Vref` (metres). Also throws std::invalid_argument if `p_Vref` is not finite, or is
   /// farther from the centre of the bounding box than kFarthestPoint times the farthest vertex.
   SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref);
 
@@ -69,11 +72,11 @@ class SlidingPart : public ContactBody {
   double radius_;
 };
 
-/// The bodies of mesh files (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. Triangles
-/// without area are left out, and so is what `geometry::import_mesh` warns of; only that function tells of it. Throw
+/// Loads a body from a mesh file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. Drops
+/// the warnings and counts of `geometry::import_mesh`: call that function to see what was left out. Throws
 /// std::invalid_argument, naming the file, as `geometry::import_mesh` does.
 std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale = 1.0);
-/// The same for a part, whose compliance point is the centre of its bounding box.
+/// As `load_body`, for a part. The compliance point is the centre of the bounding box.
 std::shared_ptr<const SlidingPart> load_part(const std::filesystem::path& file, double scale = 1.0);
 
 /// A body that stands still. Several obstacles may share one `ContactBody`.
@@ -81,8 +84,9 @@ struct Obstacle {
   std::shared_ptr<const ContactBody> body;
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
-  /// The gap (metres) at which contacts with this obstacle stop a part; default: the margin of the part. A smaller
-  /// margin allows a tighter fit, a larger margin leaves more clearance. At most kGreatestMargin_m (`sliding_rules.h`).
+  /// The gap (metres) at which contacts with this obstacle stop a part. The default is the margin of the part. A
+  /// smaller margin allows a tighter fit, a larger margin leaves more clearance. At most kGreatestMargin_m
+  /// (`sliding_rules.h`).
   std::optional<double> margin{};
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Metaphors: how the hand is tied to the part (paper §3).
+/// Metaphors: the ways to couple the hand to the part (paper §3).
 
 #include <array>
 #include <cstddef>
@@ -24,9 +24,9 @@ enum class Metaphor : std::uint8_t {
 /// What a metaphor means for the part.
 struct MetaphorTraits {
   std::string_view name;      ///< as on the command line
-  bool limits_speed = false;  ///< the lag changes no faster than kSlew_m (`spring.h`) a millisecond and the ghost do
-  bool turns_part = true;     ///< the ghost turns the part; otherwise only contacts do
-  bool makes_up = true;       ///< the part makes up for motion that contacts have prevented, once it can
+  bool limits_speed = false;  ///< in 1 ms, the lag changes by at most kSlew_m (`spring.h`) plus the ghost's motion
+  bool turns_part = true;     ///< the ghost turns the part; if false, only contacts turn it
+  bool makes_up = true;       ///< the part makes up for prevented motion as soon as contacts allow it
 };
 
 /// In the order of the values of `Metaphor`.
@@ -50,13 +50,14 @@ inline std::string_view name_of(Metaphor metaphor) {
   return traits_of(metaphor).name;
 }
 
-/// The metaphor with this name; nothing for an unknown name.
+/// The metaphor with this name; std::nullopt for an unknown name.
 std::optional<Metaphor> metaphor_from_name(std::string_view name);
 
-/// The target X_WT of a part at X_WV after the ghost has gone from X_WG_previous to X_WG; `p_Vref` is the reference
-/// point in the part's frame. Most metaphors want the ghost's pose, bit for bit. One that does not turn the part
-/// wants the ghost's reference point and the rotation of X_WV. One that does not make up for lost motion wants X_WV
-/// displaced as the ghost was: the same translation of the reference point, the same rotation.
+/// The target X_WT of a part at X_WV, after the ghost has moved from X_WG_previous to X_WG. `p_Vref` is the reference
+/// point in the part's frame. The target depends on the `MetaphorTraits`. Without `makes_up`, the target is X_WV
+/// displaced as the ghost was, by the same translation of the reference point and the same rotation. Without
+/// `turns_part`, the target has the ghost's reference point and the rotation of X_WV. Otherwise the target is X_WG, bit
+/// for bit.
 Eigen::Isometry3d wanted_pose(Metaphor metaphor, const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG_previous,
                               const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
 

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The constraints of contacts on the displacements of parts, and the quadratic programme at the heart of sliding:
-/// among the displacements that half-space constraints allow, the one nearest to a wanted displacement, in the metric
-/// of the coupling.
+/// The constraints of contacts on the displacements of parts, and the quadratic programme at the heart of sliding.
+/// Among the displacements that half-space constraints allow, it finds the displacement nearest to a wanted one, in the
+/// metric of the coupling stiffness.
 
 #include <array>
 #include <cstddef>
@@ -18,8 +18,8 @@
 
 namespace glissade::contact {
 
-/// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part: v is the translation of
-/// the part's reference point in metres, w the rotation vector about that point in radians.
+/// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part. v is the translation of
+/// the part's reference point in metres; w is the rotation vector about that point in radians.
 struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
@@ -29,11 +29,11 @@ struct ConstraintRow {
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
-/// A constraint on the displacements of several parts: on the displacement of `part`, or for a contact of two parts, on
-/// that of `part` relative to `other`.
+/// A constraint on the displacement of `part`. For a contact of two parts, it constrains the displacement of `part`
+/// relative to `other`.
 struct CoupledRow : ConstraintRow {
   std::int32_t part = 0;
-  std::int32_t other = -1;                            ///< −1 for an obstacle
+  std::int32_t other = -1;                            ///< number of the other part; −1: an obstacle
   Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
 
   double velocity(std::span<const geometry::Displacement> d) const {
@@ -47,8 +47,8 @@ enum class ProjectionStatus : std::uint8_t { kSolved, kInfeasible, kIterationLim
 
 inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
 
-/// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each, along its
-/// normal: its share of K (ξ − ξ*). Displacements are valid only when solved.
+/// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each active row: the
+/// force along its normal that the row contributes to K (ξ − ξ*). `displacements` is valid only with kSolved.
 template <std::size_t kParts>
 struct Projection {
   ProjectionStatus status = ProjectionStatus::kSolved;
@@ -63,20 +63,21 @@ struct Projection {
 using CoupledProjection = Projection<kMaxParts>;
 
 /// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
-/// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are kept as an
-/// orthonormal basis and a triangular factor, so that a change of the active set costs some hundred operations.
+/// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are stored as an
+/// orthonormal basis and a triangular factor, so a change of the active set costs some hundred operations.
 ///
-/// Bounded work: at most 32 + 4 · rows changes of the active set, O(rows) each. Deterministic. Not thread-safe.
+/// The work is bounded: at most 32 + 4 · rows changes of the active set, at a cost of O(rows) each. Deterministic. Not
+/// thread-safe.
 class ProjectionSolver {
  public:
-  /// Allocates memory for `rows` rows of one part. A call allocates only for more rows than any call before.
+  /// Allocates memory for `rows` rows of one part. A call allocates only if it has more rows than any earlier call.
   explicit ProjectionSolver(std::size_t rows = 0);
 
   Projection<1> project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
                         std::span<const ConstraintRow> rows);
 
-  /// The same for up to kMaxParts parts; `wanted` and `stiffness` have one entry for each part. A part of infinite
-  /// stiffness stands still, whatever its wanted displacement.
+  /// As the other `project`, for up to kMaxParts parts. `wanted` and `stiffness` have one entry for each part. A part
+  /// of infinite stiffness stands still.
   CoupledProjection project(std::span<const geometry::Displacement> wanted,
                             std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows);
 

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Sliding contact of one part: the visible part follows the ghost as closely as the obstacles allow. The ghost is the
-/// pose that the part would have if nothing were in the way. A part that starts apart from all other bodies never gets
-/// inside one, neither at rest nor on its way.
+/// Sliding contact of one part. The visible part follows the ghost as closely as the obstacles allow. The ghost is the
+/// pose that the part would have if nothing were in the way. A part that starts apart from all other bodies never
+/// enters another body, neither at rest nor on its path.
 
 #include <chrono>
 #include <memory>
@@ -24,7 +24,7 @@ struct SlidingOptions {
   SlidingRules rules{};
 };
 
-/// A part that moves on its own or in the other hand. Its script gives the poses of its ghost over time: the part
+/// A part that moves on its own or in the other hand. A script gives the poses of the part's ghost over time. The part
 /// follows the script as far as contacts allow.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
@@ -37,7 +37,7 @@ struct ScriptedPart {
   std::string name = "a moving part";  ///< for messages
 };
 
-/// The same for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
+/// Converts a scripted part for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
 HeldPart held_by_script(const ScriptedPart& part);
 
 /// The simulation of one part among fixed obstacles and scripted parts: `MultiPartSliding` with the part first and the
@@ -50,24 +50,27 @@ class Sliding {
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
           const std::vector<ScriptedPart>& scripted = {});
 
-  /// The hand grasps the part, or grasps it anew: from now on the ghost is at X_WG, wherever the part is. Nothing moves
-  /// in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost and part:
-  /// - With `force-feedback` the part closes the offset at a limited speed. Meanwhile the hand feels no force from it.
-  /// - With the rubber bands the part closes the offset without a limit of speed.
+  /// The hand grasps the part, or grasps it anew. From now on the ghost is at X_WG, even if the part is elsewhere.
+  /// Nothing moves in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost
+  /// and part:
+  /// - With `force-feedback` the part closes the offset at a limited speed. Meanwhile the offset exerts no force on the
+  ///   hand.
+  /// - With the rubber bands the part closes the offset at unlimited speed.
   /// - With `incremental` the part keeps the offset, so that `release` and `grasp` act as a clutch.
   ///
   /// The hand holds the part from the start; `grasp` is required only after `release`. Ignores poses that
   /// `geometry::rigid_pose` rejects.
   void grasp(const Eigen::Isometry3d& X_WG) { sliding_.grasp(0, X_WG); }
 
-  /// The hand lets go: the part stays where it is, the ghost is at the pose of the part, and no contact pushes.
+  /// The hand releases the part. The part stays at its pose, the ghost moves to the pose of the part, and no contact
+  /// pushes.
   void release() { sliding_.release(0); }
 
   /// Moves the visible part towards its target (`SlidingResult::X_WT`) for the ghost at X_WG. Call this once per
-  /// millisecond of motion. X_WG is corrected to a rotation and translation by `geometry::rigid_pose`. The part stays
-  /// where it is if `rigid_pose` rejects X_WG or if the part is released. `milliseconds`, finite and not negative, is
-  /// the time between the ghost poses of the last call and of this call. A caller that is late passes the whole time,
-  /// so that the part catches up. Scripts advance by `milliseconds` in any case.
+  /// millisecond of motion. `geometry::rigid_pose` corrects X_WG to a rotation and translation. The part stands still
+  /// if `rigid_pose` rejects X_WG or if the part is released. `milliseconds`, finite and not negative, is the time
+  /// between the ghost poses of the last call and of this call. A caller that is late passes the whole time, so that
+  /// the part catches up. Scripts advance by `milliseconds` in any case.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
 
   const SlidingResult& result() const { return sliding_.result(0); }
@@ -77,15 +80,13 @@ class Sliding {
   double margin() const { return sliding_.margin(0); }
   /// As `MultiPartSliding::lag`.
   geometry::Displacement lag() const { return sliding_.lag(0); }
-  /// Visible poses of the scripted parts, i.e. of the parts that a script moves instead of the hand, in the order given
-  /// to the constructor.
+  /// Visible poses of the scripted parts, in the order given to the constructor.
   std::span<const Eigen::Isometry3d> scripted_X_WB() const { return scripted_X_WB_; }
   const SearchStatistics& search_statistics() const { return sliding_.search_statistics(); }
   const CallStatistics& call_statistics() const { return sliding_.call_statistics(); }
 
-  /// Minimum clearance (metres): the distance that the part keeps on every step from obstacles that have no margin of
-  /// their own, as proved before the step. A step that starts nearer to an obstacle keeps 95 % of the distance at its
-  /// start.
+  /// Minimum clearance (metres): in every step, the part provably keeps this distance from obstacles that have no
+  /// margin of their own. A step that starts nearer to an obstacle keeps 95 % of the distance at the start of the step.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
 
  private:

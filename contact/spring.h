@@ -1,7 +1,6 @@
 #pragma once
 
-/// The spring of the virtual coupling, between the visible part and its target, and the wrench that the hand feels from
-/// it.
+/// The spring of the virtual coupling between the visible part and its target, and the spring's wrench on the hand.
 
 #include <string>
 
@@ -12,15 +11,13 @@
 namespace glissade::contact {
 
 /// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
-/// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost, or of all ghosts if there
-/// are several parts. This limit bounds the change of the force when the part snaps into a
-/// gap.
+/// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost. With several parts, the
+/// motions of all ghosts are added. This limit bounds the change of the force when the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
 /// Stiffness of the spring against translation (N/m) of the part's reference point and rotation (Nm/rad) about it. The
 /// simulation projects the wanted displacement of the part on the displacements that the contacts allow. The stiffness
-/// is also the metric of this projection, so that the wrench of the spring on a part at rest is a sum of forces along
-/// contact normals.
+/// is also the metric of this projection.
 struct CouplingStiffness {
   double translational;
   double rotational;
@@ -29,13 +26,13 @@ struct CouplingStiffness {
 /// Throws std::invalid_argument, naming the part by `part_name`, unless both numbers are positive and finite.
 void validate(const CouplingStiffness& stiffness, const std::string& part_name);
 
-/// Of the coupling against translation, if nothing else is said.
+/// The default stiffness of the coupling against translation.
 inline constexpr double kUsualStiffness_N_per_m = 1000.0;
 
-/// The stiffness for a part of radius ρ (metres): against rotation, ρ² times that against translation.
+/// The stiffness for a part of radius ρ (metres). The stiffness against rotation is ρ² times `translational`.
 CouplingStiffness stiffness_of_part(double radius, double translational = kUsualStiffness_N_per_m);
 
-/// Force (N) and torque (Nm) on a body about some point, in world axes.
+/// Force `f` (N) on a body, and torque `t` (Nm) about some point, in world axes.
 struct Wrench {
   Eigen::Vector3d f = Eigen::Vector3d::Zero();
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
@@ -46,13 +43,13 @@ inline Wrench scaled(const Wrench& wrench, double factor) {
   return {factor * wrench.f, factor * wrench.t};
 }
 
-/// The same wrench about the point `to` instead of the point `from`, both in world coordinates (metres).
+/// Converts a wrench about the point `from` to the point `to`. Both points are in world coordinates (metres).
 Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// The spring's wrench on the hand about the ghost's reference point: −K ξ*, where K is `stiffness` and ξ* is `error`,
-/// the displacement from the visible part to its target (which is the ghost, unless the part was grasped at an offset).
-/// Exactly zero when `error` is zero. Because the part was projected on the contacts in the metric K, the
-/// wrench is a sum of forces along contact normals: without `SlidingRules::friction`, the hand feels no friction.
+/// The spring's wrench on the hand about the ghost's reference point: −K ξ*. K is `stiffness`, and ξ* is `error`, the
+/// displacement from the visible part to its target. Exactly zero when `error` is zero. Because K is the metric of the
+/// projection, the wrench on a part at rest is a sum of forces along contact normals. So the hand feels no friction,
+/// unless `SlidingRules::friction` is set.
 Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 
 }  // namespace glissade::contact

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a simulation of sliding contact has done so far.
+/// Statistics of a simulation of sliding contact.
 
 #include <cstdint>
 
@@ -8,24 +8,23 @@
 
 namespace glissade::contact {
 
-/// The work of searching for contacts, and for the pairs of triangles and boxes that must provably stay apart in the
-/// next steps. The stages of `reports` find out which bodies are near; only its `total` includes the search among their
-/// triangles, and the time in which a search waits for work that it may do.
+/// The work of searches for contacts and for the pairs of triangles and boxes that the next steps must certify.
 struct SearchStatistics {
   std::int64_t searches = 0;  ///< number of searches whose answers were used
-  /// The sum of the reports of these searches. With a search thread, times and stages differ from run to run: the
-  /// pipeline starts afresh after a search that was ended early, and then remembers nothing.
+  /// The sum of the reports of these searches. The stages cover the search for near bodies. `total` also includes the
+  /// search among their triangles, and the time in which a search waits for its share of work. With a search thread,
+  /// times and stages differ from run to run, because the pipeline loses its memory when a search is ended early.
   collision::FrameReport reports;
 };
 
 /// The calls of a simulation and their work.
 struct CallStatistics {
   std::int64_t calls = 0;
-  std::int64_t ended_early = 0;  ///< calls that ended because their work was used up
-  /// Steps whose friction was not solved, mostly because its work was used up first. They pass through nothing, but
-  /// their forces are not in balance with the springs.
+  std::int64_t ended_early = 0;  ///< calls that used up their work
+  /// Steps whose friction was not solved, mostly because the work for friction was used up. Such steps are certified,
+  /// but their forces do not balance the springs.
   std::int64_t unsettled_friction = 0;
-  std::int64_t most_work = 0;  ///< of a call, without its searches; unit as in `SlidingRules::work_budget`
+  std::int64_t most_work = 0;  ///< largest work of a call without searches, in the unit of `SlidingRules::work_budget`
 };
 
 }  // namespace glissade::contact

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Contacts for lists, logs and displays: each contact keeps a number over time, and contacts in one plane merge into
+/// Contacts for lists, logs and displays. Each contact keeps a number over time, and contacts in one plane merge into
 /// patches. The simulation itself uses neither the numbers nor the patches.
 
 #include <cstdint>
@@ -16,35 +16,34 @@ namespace glissade::contact {
 
 /// A contact with its identity. Point, normal and gap are given at the visible pose.
 struct TrackedContact {
-  std::int64_t id = 0;   ///< from 1; each new contact gets the next number
+  std::int64_t id = 0;   ///< number of the contact, from 1 in order of first touch
   std::int64_t age = 0;  ///< updates since the contact got its number
   Contact contact;
 };
 
-/// Tracks the contacts of one part from one result to the next; several parts need a tracker each. Not thread-safe.
+/// Tracks the contacts of one part from one result to the next. Each part needs its own tracker. Not thread-safe.
 ///
 /// A contact **touches** when its force is positive or its gap is at most two margins. (The margin is the gap at which
 /// contacts stop the part.)
 ///
-/// Contacts with one obstacle are merged into one contact when their points on the part lie within a margin of each
-/// other, their points on the obstacle too, and their normals are within 1°. For example, a vertex over the common edge
-/// of coplanar triangles makes a contact with each of these triangles; an edge that crosses two other edges at their
-/// common vertex makes a contact with each of these edges. The merged contact is the one that comes first in the
-/// list that `update` returns. Its force is the sum of the forces of all merged contacts.
+/// Contacts with one obstacle are merged if their normals are within 1°, their points on the part are within a margin
+/// of each other, and their points on the obstacle are as well. For example, a vertex over the common edge of coplanar
+/// triangles makes a contact with each of these triangles. An edge that crosses two other edges at their common vertex
+/// makes a contact with each of these two edges. The merged contact takes the place of the first contact in the order
+/// of `update`. The force of the merged contact is the sum of the forces of all merged contacts.
 ///
 /// A contact gets its number when it first touches. It **keeps** the number while its force is positive or its gap is
-/// at most three margins, so that a gap that varies about two margins does not change the number. Contacts of two
-/// successive updates are the same contact, with the same number, in two cases:
+/// at most three margins. So a gap that varies about two margins does not change the number. Contacts of two successive
+/// updates are the same contact, with the same number, in two cases:
 /// 1. Obstacle, kind, features and triangles are the same.
-/// 2. The old contact has no such successor, and the new contact continues the old one: the obstacle is the same, the
-///    normals are within 10°, and the old and the new contact point on the part are at most a distance d apart, as are
-///    those on the obstacle. Here d is the motion of the part at the contact, plus `obstacle_travel`, plus three
-///    margins.
+/// 2. The old contact has no successor by case 1, and the new contact continues the old one. That is, the obstacle is
+///    the same, the normals are within 10°, the contact points on the part are at most d apart, and the contact points
+///    on the obstacle are at most d apart. Here d is the motion of the part at the contact, plus `obstacle_travel`,
+///    plus three margins.
 ///
-/// By the second rule, a contact stays the same when its point passes from one triangle or edge to the next on a flat
-/// or smooth face, and becomes another contact when its point goes round a corner. If a new contact could continue
-/// several old ones, it continues an old contact with which it shares a feature; among several of these, the nearest;
-/// among equally near ones, the oldest.
+/// By case 2, a contact stays the same when its point passes to the next triangle or edge of a flat or smooth face. It
+/// becomes another contact when its point goes round a corner. If a new contact could continue several old contacts,
+/// old contacts that share a feature with it come first, then nearer contacts, then older contacts.
 class ContactTracker {
  public:
   /// `margin` (metres) is the margin of the simulation (`SlidingSimulation::margin`), or the largest of all margins if
@@ -54,10 +53,9 @@ class ContactTracker {
   /// Returns the touching contacts of `result`, which must be the next result of the same simulation, in ascending
   /// order of obstacle, kind, part feature and obstacle feature. A simulation may report contacts at the pose before
   /// its last step (`SlidingResult::X_WV_of_contacts`). The tracker moves these contacts with the part to the visible
-  /// pose; the result is exact if the step is a translation along a face.
-  /// `obstacle_travel` (metres) bounds the motion of every point of an obstacle or another part since the last update.
-  /// The returned span is valid until the next update. Cost O(n log n) for n contacts; allocates only when there are
-  /// more contacts than ever before.
+  /// pose. This is exact if the step is a translation along a face. `obstacle_travel` (metres) bounds the motion of
+  /// every point of an obstacle or another part since the last update. The returned span is valid until the next
+  /// update. Cost O(n log n) for n contacts. Allocates only when there are more contacts than ever before.
   std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
 
   /// The touching contacts of the last update.
@@ -109,19 +107,20 @@ struct ContactPatch {
 
 /// Merges contacts into patches. Not thread-safe.
 ///
-/// The oldest contact without a patch founds a patch. A contact with the same obstacle joins the patch if its normal is
-/// within 10° of the founder's normal and its point is within 1 % of ρ from the plane through the founder's point,
-/// where ρ is the radius of the part. The plane is perpendicular to the founder's normal. Distance within the plane
-/// does not matter: the contacts at the four corners of a box that lies flat are one patch. A patch has the id
-/// of its founder. It keeps this id as long as no older contact is in the patch and the founder touches.
+/// The oldest contact without a patch founds a patch. Its plane goes through the founder's contact point, perpendicular
+/// to the founder's normal. A contact with the same obstacle joins the patch if its normal is within 10° of the
+/// founder's normal and its point is within 1 % of ρ from the plane, where ρ is the radius of the part. Distance within
+/// the plane does not matter: the contacts at the four corners of a box that lies flat are one patch. A patch has the
+/// id of its founder, and keeps this id while the founder touches and no older contact joins.
 class ContactPatches {
  public:
   /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).
   explicit ContactPatches(double radius) : plane_tolerance_(0.01 * radius) {}
 
   /// Returns the patches of `contacts`, a list from `ContactTracker`, in ascending order of their ids. Each call is
-  /// independent of earlier calls; the order of `contacts` affects rounding only. The returned span is valid until the
-  /// next call. Cost O(n log n), and O(n) for each patch; allocates only when there are more contacts than ever before.
+  /// independent of earlier calls. The order of `contacts` affects rounding only. The returned span is valid until the
+  /// next call. Cost O(n log n), plus O(n) for each patch. Allocates only when there are more contacts than ever
+  /// before.
   std::span<const ContactPatch> merge(std::span<const TrackedContact> contacts);
 
  private:
