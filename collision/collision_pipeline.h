@@ -1,12 +1,13 @@
 #pragma once
 
-/// The collision pipeline (paper §2): finds the pairs of objects of a world that meet, frame by frame. The cost of a
+/// The collision pipeline (paper §2). In each frame, it finds the pairs of objects of a world that meet. The cost of a
 /// frame grows with the number of near pairs that moved, not with the number of objects.
 ///
 ///   queue → interest matrix → neighbor finding → separating planes → DOP-trees
 ///
-/// Use a `CollisionPipeline` to compute frames in a thread of your own. Use a `CollisionThread` (paper §2.3) to compute
-/// frame after frame concurrently: other threads move objects and read results without ever waiting for it.
+/// Use a `CollisionPipeline` to compute frames in your own thread. A `CollisionThread` (paper §2.3) computes frame
+/// after frame in a separate thread. Other threads move objects and read results without ever waiting for the
+/// `CollisionThread`.
 
 #include <chrono>
 #include <memory>
@@ -25,23 +26,21 @@ namespace glissade::collision {
 /// and move its objects at any time. If memory runs out in a frame that several threads share, the program ends.
 class CollisionPipeline {
  public:
-  /// Becomes the consumer of `world`, that is, the caller of `World::take_changes`. The world must have no other
-  /// consumer. World and clock must outlive the pipeline. The clock serves measurement only. Throws
-  /// std::invalid_argument if `options` has a `greatest_distance` that is negative or not finite, or a negative number
-  /// of threads.
+  /// Becomes the only consumer of `world`, i.e. the caller of `World::take_changes`. World and clock must outlive the
+  /// pipeline. The clock serves measurement only. Throws std::invalid_argument if `options` has a `greatest_distance`
+  /// that is negative or not finite, or a negative number of threads.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
   CollisionPipeline(const CollisionPipeline&) = delete;
   CollisionPipeline& operator=(const CollisionPipeline&) = delete;
 
-  /// Computes a frame with the newest poses: finds all enabled pairs of objects that meet, that is, whose distance is
-  /// at most `distance` (metres). With `distance` 0, objects meet if their surfaces touch or intersect. The answers are
-  /// exact: they are the answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`. An object
-  /// may have a selection of its triangles (`ObjectDescription`). With PairQuery::kClosePairs, two objects that both
-  /// have a selection meet only if a selected pair of their triangles is within the distance. The
-  /// other values of `PairQuery` (`frame_result.h`) ignore selections. The next call overwrites the result. Throws
-  /// std::invalid_argument for a distance that is negative, not a number, or greater than
-  /// `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
+  /// Computes a frame with the newest poses: finds all enabled pairs of objects that meet. Two objects meet if their
+  /// distance is at most `distance` (metres). With `distance` 0, objects meet if their surfaces touch or intersect. The
+  /// answers are exact: they are the answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`.
+  /// With PairQuery::kClosePairs, two objects that both have a selection of triangles (`ObjectDescription`) meet only
+  /// if a selected pair of triangles is within `distance`. The other values of `PairQuery` ignore selections. The next
+  /// call overwrites the result. Throws std::invalid_argument for a distance that is negative, not a number, or greater
+  /// than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
 
   /// The result of the last `step`. Before the first `step`, its frame number is 0.
@@ -54,13 +53,12 @@ class CollisionPipeline {
 
 struct CollisionThreadOptions {
   PipelineOptions pipeline;
-  /// Two objects meet if their distance is at most this (metres), as in `CollisionPipeline::step`. At most
-  /// `pipeline.greatest_distance`.
+  /// The `distance` (metres) of `CollisionPipeline::step`. At most `pipeline.greatest_distance`.
   double distance = 0.0;
   /// Time from the beginning of one frame (one `CollisionPipeline::step`) to the beginning of the next. If a frame
-  /// takes longer than the period, the next frame begins at once, and missed frames are not made up for.
+  /// takes longer than the period, the next frame begins at once. Missed frames are not made up for.
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
-  /// Number of readers, one for each thread that reads results. At least 1.
+  /// Number of readers, at least 1. Each thread that reads results needs its own reader.
   int readers = 1;
 };
 
@@ -68,11 +66,11 @@ struct CollisionThreadOptions {
 /// allocate nothing.
 class FrameReader {
  public:
-  /// Takes the newest frame. Returns whether this frame is newer than the frame taken before.
+  /// Takes the newest frame. Returns whether it is newer than the frame of the last `update`.
   bool update() noexcept { return frames_.update(); }
 
-  /// The frame taken last. The frame number is 0 until a frame has been taken. The frame does not change until the next
-  /// `update`.
+  /// The frame of the last `update`. The frame number is 0 until an `update` has taken a frame. The frame does not
+  /// change until the next `update`.
   const FrameResult& frame() const noexcept { return frames_.value(); }
 
  private:
@@ -80,20 +78,19 @@ class FrameReader {
   realtime::TripleBuffer<FrameResult> frames_;
 };
 
-/// The thread runs from construction to `stop` or destruction. Thread-safety: one thread owns the object, each reader
+/// Computes frames from construction to `stop` or destruction. Thread-safety: one thread owns the object, each reader
 /// serves one thread, and any thread may use the world.
 class CollisionThread {
  public:
-  /// World and clock must outlive the thread. No other pipeline may work on this world, but any thread may edit the
-  /// world and move its objects. Throws std::invalid_argument for options out of range, and std::system_error if no
-  /// thread can be started.
+  /// World and clock must outlive the thread. No other pipeline may work on this world. Throws std::invalid_argument
+  /// for options out of range, and std::system_error if no thread can be started.
   CollisionThread(World& world, realtime::Clock& clock, const CollisionThreadOptions& options = {});
   CollisionThread(const CollisionThread&) = delete;
   CollisionThread& operator=(const CollisionThread&) = delete;
   ~CollisionThread() { stop(); }
 
-  /// The reader with this number, from 0 to `CollisionThreadOptions::readers` − 1. Throws std::out_of_range for any
-  /// other number.
+  /// The reader with this number, from 0 to `CollisionThreadOptions::readers` − 1. Throws std::out_of_range for other
+  /// numbers.
   FrameReader& reader(int number = 0) { return *readers_.at(static_cast<std::size_t>(number)); }
 
   /// Ends the thread after the current frame, which is still published. Blocks until the thread has ended.

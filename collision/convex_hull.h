@@ -18,8 +18,8 @@ namespace glissade::collision {
 
 struct HullFacets;
 
-/// Immutable after construction, so safe to share between objects and threads. Coplanar, collinear and coincident
-/// points have a hull, too.
+/// A convex hull, also of coplanar, collinear or coincident points. Immutable after construction, so safe to share
+/// between objects and threads.
 class ConvexHull {
  public:
   /// The hull of points in the frame of the object (metres). Throws std::invalid_argument if there is no point or if a
@@ -52,22 +52,22 @@ class ConvexHull {
   /// are proportional to this distance.
   double reach() const { return reach_; }
 
-  /// The largest distance (metres) at which an input point may lie outside the hull of `vertices()`: Qhull omits points
-  /// that lie nearly in a face.
+  /// The largest distance (metres) of an input point from the hull of `vertices()`. Qhull omits points that lie nearly
+  /// in a face.
   double outside() const { return outside_; }
 
   /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
   /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
-  /// `climbing_error`. Cost: proportional to the number of corners on the way and their neighbors. The way has about
-  /// √n corners from an arbitrary start, and very few if `start` is the result for a similar direction.
+  /// `climbing_error`. The cost is proportional to the number of corners on the way and their neighbors. The way has
+  /// about √n corners from an arbitrary start. It has very few if `start` is the result for a similar direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
-  /// A start for climbing when no better start is known: a corner that is farthest along some direction within a few
-  /// degrees of `direction`. Cost O(1).
+  /// A start for `support` when no better start is known: the corner farthest along some direction within a few degrees
+  /// of `direction`. Cost O(1).
   std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
 
-  /// Upper bound (metres) of how much farther along the direction another corner may be than the result of `support`.
-  /// Climbing stops where rounding hides the difference between neighbors; this matters for narrow facets.
+  /// Upper bound (metres) of the error of `support`: another corner may be farther along the direction by at most this
+  /// length. The search stops where rounding hides the difference between neighbors, as on narrow facets.
   double climbing_error() const { return climbing_error_; }
 
   /// The corner farthest along `direction`, found by examining all corners. Cost O(n).
@@ -126,20 +126,20 @@ inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::i
   return best;
 }
 
-/// The test that runs if the plane of the last query no longer separates the hulls.
+/// The test of two hulls. It runs if the plane of the last query no longer separates the hulls.
 enum class HullTest : std::uint8_t {
   kExact,  ///< GJK to its end, from the simplex of the last query; exact to rounding, see `hulls_apart`
-  /// Up to 300 learning steps of a perceptron (paper §2.2), each of which turns a trial plane. The answer "apart" is
-  /// certain; the answer "not apart" may be wrong.
+  /// Up to 300 learning steps of a perceptron (paper §2.2). Each step turns a trial plane. The answer "apart" is
+  /// certain, but the answer "not apart" may be wrong.
   kPerceptron,
 };
 
-/// Results of the last query of a pair of hulls, which speed up the next query. The results serve as guesses: the
-/// answer does not depend on them, except where rounding leaves the answer open. Keep one `HullMemory` for each pair of
-/// objects, and always pass the two hulls in the same order. Not thread-safe.
+/// Results of the last query of a pair of hulls. They speed up the next query. Its answer does not depend on them,
+/// except where rounding leaves the answer open. Keep one `HullMemory` for each pair of objects, and always pass the
+/// two hulls in the same order. Not thread-safe.
 struct HullMemory {
-  /// The separating plane, stored twice: fixed to A (n_A, reach_A) and fixed to B (n_B, reach_B). Normals are unit
-  /// vectors from A to B.
+  /// The separating plane. It is stored twice: fixed to A (n_A, reach_A), and fixed to B (n_B, reach_B). Normals are
+  /// unit vectors from A to B.
   Eigen::Vector3d n_A = Eigen::Vector3d::Zero();
   Eigen::Vector3d n_B = Eigen::Vector3d::Zero();
   double reach_A = 0.0;  ///< extent of A along n_A from the origin of A, metres
@@ -157,7 +157,7 @@ struct HullMemory {
   std::int8_t simplex_count = 0;
   std::int8_t planes_to_leave = 0;  ///< number of new planes to keep as found, without an attempt to widen their gap
   bool has_plane = false;
-  bool by_centers = false;  ///< after a large movement the line between the centres was enough
+  bool by_centers = false;  ///< the line between the centres decided after a large movement
   bool met = false;         ///< the last answer was that the hulls may meet
 
   std::int32_t loops = 0;  ///< learning steps and rounds of GJK in the last query

@@ -1,18 +1,16 @@
 #pragma once
 
-/// Exact queries between two DOP-trees: whether the triangle soups intersect, which triangle pairs intersect or are
-/// near, and how far apart the soups are. A guaranteed bound: a translation that separates them.
+/// Queries between two DOP-trees. Exact queries find out whether the triangle soups intersect, which triangle pairs
+/// intersect or are near, and how far apart the soups are. Another query finds a translation that separates the soups.
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. The query transforms the vertices of B by X_AB in
 /// double precision. The answer is that of exact real arithmetic on these transformed vertices and the vertices of A.
-/// With a tolerance or distance above 0, the distances of triangles that are compared with it are accurate to a few
-/// units in the last place of the largest coordinate. Touching counts as intersecting. Only triangles of positive area
-/// take part.
+/// With a tolerance or distance above 0, computed distances of triangles are accurate to a few units in the last place
+/// of the largest coordinate. Touching counts as intersecting. Only triangles of positive area take part.
 ///
 /// Each query throws std::invalid_argument for trees that were built with different options, for a distance that is
-/// negative or not a number, for a pose that is not finite, and for a matrix that is not a rotation: a reflection,
-/// or one for which the absolute entries of RᵀR − 1 add up to 1e-3 or more. A smaller deviation costs speed, not
-/// exactness.
+/// negative or not a number, and for a pose that is not finite. It also throws if the matrix R of the pose is a
+/// reflection, or if the absolute entries of RᵀR − 1 add up to 1e-3 or more. A smaller sum costs speed, not exactness.
 
 #include <limits>
 #include <vector>
@@ -24,8 +22,8 @@
 
 namespace glissade::collision {
 
-/// Whether the two meshes are at most `tolerance` (metres, ≥ 0) apart; with tolerance 0, whether they intersect. (paper
-/// §2.1)
+/// Whether two meshes are at most `tolerance` (metres, ≥ 0) apart (paper §2.1). With tolerance 0: whether they
+/// intersect.
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
                 double tolerance = 0.0);
 bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -48,8 +46,8 @@ void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Iso
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
-/// The least distance of two triangles of the two meshes, if it is less than `limit` (metres). The cost hardly depends
-/// on how far apart the meshes are, and the less the lower the limit.
+/// The least distance of a triangle of A and a triangle of B, if it is less than `limit` (metres). The cost hardly
+/// depends on the distance, and falls with `limit`.
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                       QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -57,8 +55,8 @@ MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen:
 
 /// A translation that separates two meshes.
 struct Penetration {
-  /// Translation of B in the frame of A after which the meshes are farther apart than the `clearance` that was
-  /// given to `find_way_out` (metres). Zero if they are so already.
+  /// Translation of B in the frame of A (metres) after which the meshes are farther apart than the `clearance` given to
+  /// `find_way_out`. Zero if the meshes are farther apart already.
   Eigen::Vector3d way_out_A = Eigen::Vector3d::Zero();
 
   double depth() const { return way_out_A.norm(); }
@@ -68,16 +66,15 @@ struct Penetration {
 /// apart. A query at the translated pose has confirmed this.
 ///
 /// Because of this query, the depth is a guaranteed upper bound of the shortest translation that separates the two
-/// surfaces. A shorter
-/// translation may exist: the search tries directions all around, the normals of intersecting triangles, the axes of
-/// both frames and the diagonals between them, and then directions ever closer to the best direction so far, down to a
-/// few thousandths of a radian from it. Along axes and diagonals it finds the nearest free place, however small, such
-/// as the middle of a hole; along the others it may miss small ones. For convex
-/// bodies the depth is within a few per cent of the least depth. Meshes are surfaces without an inside: a body that
-/// lies inside a closed surface without touching it is apart from the surface, and the shortest way out of a shell may
-/// lead inward. Only the translated pose is tested: on the way to this pose, B may meet A or other objects.
+/// surfaces. A shorter translation may exist. The search tries directions all around, the normals of intersecting
+/// triangles, the axes of both frames and the diagonals between the axes. Then it refines the best direction to a few
+/// thousandths of a radian. Along axes and diagonals, the search finds the nearest free place of any size, such as the
+/// middle of a hole. Along other directions, it may miss small free places. For convex bodies the depth is within a few
+/// per cent of the least depth. Meshes are surfaces without an inside. So a body inside a closed surface is apart from
+/// the surface if it does not touch it, and the shortest way out of a shell may lead inward. Only the translated pose
+/// is tested: on the path to this pose, B may meet A or other objects.
 ///
-/// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws as the queries do.
+/// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws as the other queries do.
 Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                          QueryWorkspace& workspace, double clearance = 0.0);
 

@@ -28,7 +28,7 @@ enum class Realignment {
   kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 
-/// Options of construction. The defaults are the fastest; the other values are for comparisons.
+/// Options of construction. The defaults are the fastest values; other values are for comparisons.
 struct DopTreeOptions {
   int directions = 24;  ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
   /// Adds to each child a slab along the principal axis of its triangles' normals. The slab is tested if it is thinner
@@ -39,8 +39,8 @@ struct DopTreeOptions {
   bool operator==(const DopTreeOptions&) const = default;
 };
 
-/// The children of a node: first the children that are nodes, then the children that are leaves. Nodes and leaves of a
-/// tree are numbered separately. The numbers of the children of one kind are consecutive.
+/// The children of a node: first the nodes, then the leaves. Nodes and leaves of a tree are numbered separately. The
+/// nodes among the children have consecutive numbers, and so have the leaves.
 struct TreeNode {
   std::uint32_t first_node;  ///< number of the first child that is a node
   std::uint32_t first_leaf;  ///< number of the first child that is a leaf
@@ -49,7 +49,7 @@ struct TreeNode {
 
   int child_count() const { return node_count + leaf_count; }
   bool is_leaf(int child) const { return child >= node_count; }
-  /// The number of child c: its node number if the child is a node, its leaf number if it is a leaf.
+  /// The number of child c: a node number or, if `is_leaf(c)`, a leaf number.
   std::uint32_t child(int c) const {
     return is_leaf(c) ? first_leaf + static_cast<std::uint32_t>(c - node_count)
                       : first_node + static_cast<std::uint32_t>(c);
@@ -68,7 +68,7 @@ class DopTree {
   /// Builds the hierarchy by a binned surface-area heuristic, with several threads if the mesh is large. The result
   /// does not depend on the number of threads. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument for a null mesh, for a mesh without a triangle of positive area or with more than 5
+  /// Throws std::invalid_argument for a null mesh, for a mesh without a triangle of positive area, for more than 5
   /// million triangles, for an index out of range, for a coordinate that is not finite or beyond ±1e9, and for an
   /// unsupported number of directions. Cost O(n log n).
   explicit DopTree(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const DopTreeOptions& options = {});
@@ -78,10 +78,10 @@ class DopTree {
   DopTree& operator=(DopTree&&) noexcept;
   ~DopTree();
 
-  /// Fits all DOPs to the present vertices, after the owner of the mesh has moved the vertices. The triangles must be
-  /// unchanged. Queries stay exact, but become slower as triangles below one node move apart. Allocates nothing. Cost
-  /// O(n log n). Throws std::invalid_argument for a coordinate that the constructor would reject; the tree is then
-  /// unchanged.
+  /// Fits all DOPs to the present vertices, after the owner of the mesh has moved vertices. The vertex indices of
+  /// triangles must be unchanged. Queries stay exact, but become slower as triangles below one node move apart.
+  /// Allocates nothing. Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would
+  /// reject; the tree is then unchanged.
   void refit();
 
   const geometry::TriangleMesh& mesh() const { return *mesh_; }
@@ -95,8 +95,8 @@ class DopTree {
   /// entry is an unused place or a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
-  /// Identifies the tree and its fit by a number that is unique in this process and never 0. Construction and each
-  /// `refit` give a new number; a copy has the number of its original.
+  /// A number that identifies the tree and its fit, unique in this process and never 0. Construction and each `refit`
+  /// give a new number. A copy has the number of the original.
   std::uint64_t id() const { return id_; }
 
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }

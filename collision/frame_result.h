@@ -14,7 +14,7 @@
 
 namespace glissade::collision {
 
-/// The detail that a pipeline computes for pairs of objects that meet.
+/// The details that a pipeline computes for pairs of objects that meet.
 enum class PairQuery : std::uint8_t {
   kVerdict,        ///< only whether two objects meet
   kTrianglePairs,  ///< also the triangle pairs within the distance given to the step
@@ -25,14 +25,14 @@ enum class PairQuery : std::uint8_t {
 
 struct PipelineOptions {
   PairQuery query = PairQuery::kVerdict;
-  /// The test of convex hulls in the stage of separating planes. Affects the duration of a frame, never its result.
+  /// The test of convex hulls in the stage of separating planes. It affects only the duration of a frame, not the
+  /// result.
   HullTest hull_test = HullTest::kExact;
-  /// Upper limit (metres) of the distance given to `CollisionPipeline::step`. Two objects meet if their distance is at
-  /// most the distance given to the step.
+  /// Upper limit (metres) of the distance given to `CollisionPipeline::step`.
   double greatest_distance = 0.0;
-  /// Number of threads that work on a frame, including the calling thread. 0: as many as the machine has processors.
+  /// Number of threads that work on a frame, including the calling thread. 0: one thread for each processor.
   int threads = 0;
-  /// Receives the work of the exact queries; only for a single thread. Null: none. Must outlive the pipeline.
+  /// Receives the work of the exact queries; null: no meter. Allowed only with one thread. Must outlive the pipeline.
   WorkMeter* meter = nullptr;
 };
 
@@ -44,7 +44,7 @@ struct ObjectPair {
   auto operator<=>(const ObjectPair&) const = default;
 };
 
-/// Number of items that entered a stage of the pipeline, number of items that the stage passed on, and its duration.
+/// The number of items that entered a stage of the pipeline, the number that left it, and the duration of the stage.
 struct StageReport {
   std::int64_t in = 0;
   std::int64_t out = 0;
@@ -58,10 +58,10 @@ struct StageReport {
   }
 };
 
-/// Work of one frame. Stages see only pairs with an object that is new or has moved, so objects at rest cost nothing.
-/// There are two exceptions. Stages also see pairs that have just been enabled. If the distance given to the step has
-/// changed, stages see all pairs of neighbors. Neighbors are objects whose fattened boxes overlap. A fattened box is an
-/// axis-aligned bounding box enlarged by some room to move.
+/// Work of one frame. Stages see only pairs with an object that is new or has moved, and pairs that have just been
+/// enabled. So objects at rest cost nothing. But if the distance given to the step has changed, stages see all pairs of
+/// neighbors. Neighbors are objects whose fattened boxes overlap. A fattened box is an axis-aligned bounding box
+/// enlarged by some room to move.
 struct FrameReport {
   std::int64_t objects = 0;    ///< objects in the world
   std::int64_t neighbors = 0;  ///< pairs of neighbors, including pairs at rest
@@ -69,8 +69,8 @@ struct FrameReport {
   StageReport queue;
   /// In: objects that were added or moved. Out: enabled pairs of neighbors with at least one of these objects.
   StageReport neighbor_finding;
-  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs that no
-  /// plane was found to separate, and pairs that met in the last frame, for which no plane is tried.
+  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs without a
+  /// separating plane, and pairs that met in the last frame. No plane is tried for the latter.
   StageReport separating_planes;
   /// In: the pairs that left the stage of separating planes. Out: the pairs among them that meet.
   StageReport exact;
@@ -97,7 +97,7 @@ struct FrameResult {
   std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: no frame yet
   std::chrono::nanoseconds time_of_poses{0};  ///< time at which the poses were taken, by the pipeline's clock
 
-  /// Age of the poses at the time `now` of the pipeline's clock. The duration of the frame is `report.total`.
+  /// Age of the poses at the time `now` of the pipeline's clock.
   std::chrono::nanoseconds age(std::chrono::nanoseconds now) const { return now - time_of_poses; }
 
   std::vector<ObjectPair> meeting;  ///< in ascending order

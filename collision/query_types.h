@@ -34,12 +34,12 @@ struct ClosePair {
   Eigen::Vector3d p_B;  ///< on triangle B
 };
 
-/// How far apart two meshes are.
+/// The distance of two meshes.
 struct MeshDistance {
   /// Metres. 0 if the meshes intersect; the limit of the query if nothing is nearer.
   double distance;
-  /// The nearest pair of triangles; of several, the first in ascending order of the triangle indices. Empty if the
-  /// meshes intersect (see `intersecting_pairs`), or if nothing is nearer than the limit.
+  /// The nearest pair of triangles. Among equally near pairs, this is the first in ascending order of the triangle
+  /// indices. Empty if the meshes intersect (see `intersecting_pairs`), or if nothing is nearer than the limit.
   std::optional<ClosePair> nearest;
 };
 
@@ -50,23 +50,22 @@ struct QueryCounters {
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
-/// Receives the work of a query while it runs, in the thread that runs it: so another thread can see how far a query
-/// has come, and the query can be made to wait. The unit is about a nanosecond of an ordinary processor; the work
-/// depends on the trees, their poses and the memory of coherent queries, never on the speed of the machine.
-/// Conservative tests in single precision may keep a few pairs more on one instruction set than on another, so the work
-/// may differ there.
+/// Receives the work of a query while the query runs, in the same thread. So a program can watch the progress of a
+/// query, or make the query wait. The unit is about a nanosecond of an ordinary processor. The work depends on the
+/// trees, their poses and the memory of coherent queries, not on the speed of the machine. It may differ a little
+/// between instruction sets, because conservative tests in single precision may keep different pairs.
 class WorkMeter {
  public:
-  /// Adds the work that has just been done, or is done next: on a pair of nodes, on a pair of leaves, or on the exact
-  /// tests of up to 16 triangle pairs of two leaves. An exception ends the query; a pipeline is of no use then.
+  /// Adds the work just done or about to be done: on a pair of nodes, on a pair of leaves, or on the exact tests of up
+  /// to 16 triangle pairs of two leaves. May throw to end the query. A pipeline cannot be used after such an exception.
   virtual void spend(std::int64_t work) = 0;
 
  protected:
   ~WorkMeter() = default;
 };
 
-/// Scratch memory and counters of queries. Keep one per thread and reuse it: after the first few queries nothing is
-/// allocated. Not thread-safe.
+/// Scratch memory and counters of queries. Keep one workspace per thread and reuse it. After the first few queries,
+/// nothing is allocated. Not thread-safe.
 class QueryWorkspace {
  public:
   QueryWorkspace();
@@ -77,8 +76,8 @@ class QueryWorkspace {
   /// Work of the last query.
   const QueryCounters& counters() const;
 
-  /// The meter of all further queries for pairs (`intersecting_pairs`, `pairs_within`, `traverse_near`) with this
-  /// workspace; null for none. It must outlive them.
+  /// Sets the meter of all later queries for pairs (`intersecting_pairs`, `pairs_within`, `traverse_near`) with this
+  /// workspace; null: no meter. The meter must outlive these queries.
   void set_meter(WorkMeter* meter);
 
  private:
@@ -86,10 +85,10 @@ class QueryWorkspace {
   std::unique_ptr<QueryMemory> memory_;
 };
 
-/// A workspace that exploits temporal coherence: it remembers the last query of one pair of trees, which makes the next
-/// query much cheaper if the trees have moved little. The answers are the same to the bit as with a `QueryWorkspace`.
-/// Use one workspace for each pair of trees. A workspace starts afresh when it is used for other trees, or for a tree
-/// that was refitted. Not thread-safe.
+/// A workspace that exploits temporal coherence. It remembers the last query of one pair of trees. The next query is
+/// much cheaper if the trees have moved little. The answers are the same to the bit as with a `QueryWorkspace`. Use one
+/// workspace for each pair of trees. A workspace forgets when it is used for other trees, or for a tree that was
+/// refitted. Not thread-safe.
 class CoherentWorkspace {
  public:
   CoherentWorkspace();
@@ -110,33 +109,32 @@ class CoherentWorkspace {
 };
 
 /// A set of selected triangles of one tree. Further triangles may be half selected. Two triangles of two trees are a
-/// selected pair if one of them is selected, or if both are half selected. A byte for each node marks the children with
-/// such triangles below them; a byte for each leaf marks its triangles. Immutable after construction, so safe to share
-/// between threads.
+/// selected pair if one of them is selected, or if both are half selected. Immutable after construction, so safe to
+/// share between threads.
 class TriangleSelection {
  public:
-  /// Calls the functions once for each triangle, with its index in the mesh. Without `is_half_selected`, no triangle is
-  /// half selected. The selection is valid for `tree` and its copies, also after a refit. Throws std::invalid_argument
-  /// for an empty function `is_selected`. Cost O(n).
+  /// Calls both functions once for each triangle, with the index of the triangle in the mesh. Without
+  /// `is_half_selected`, no triangle is half selected. The selection is valid for `tree` and its copies, also after a
+  /// refit. Throws std::invalid_argument for an empty function `is_selected`. Cost O(n).
   TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected,
                     const std::function<bool(std::int32_t)>& is_half_selected = {});
 
-  /// For each node and leaf of a tree, a set of its children or triangles.
+  /// Marks a set of triangles in the nodes and leaves of a tree.
   struct Marks {
-    std::vector<std::uint8_t> nodes;   ///< by node: bit c is set if there is such a triangle below child c
-    std::vector<std::uint8_t> leaves;  ///< by leaf: bit t is set if triangle t of the leaf is such a one
+    std::vector<std::uint8_t> nodes;   ///< by node: bit c is set if child c has a marked triangle below it
+    std::vector<std::uint8_t> leaves;  ///< by leaf: bit t is set if triangle t of the leaf is marked
   };
-  /// Of the selected triangles.
+  /// Marks the selected triangles.
   const Marks& selected() const { return selected_; }
-  /// Of the selected and half selected triangles.
+  /// Marks the selected and the half selected triangles.
   const Marks& at_least_half() const { return at_least_half_; }
   /// By node: bit c is set if all triangles below child c are selected or half selected.
   const std::vector<std::uint8_t>& whole_children() const { return whole_children_; }
 
-  /// Whether the selection can belong to `tree`: compares the numbers of nodes and leaves.
+  /// Whether `tree` has as many nodes and leaves as the tree of the selection.
   bool is_of(const DopTree& tree) const;
 
-  /// A number that is unique in this process, from 1. A copy has the number of its original.
+  /// A number from 1 on, unique in this process. A copy has the number of the original.
   std::uint64_t id() const { return id_; }
 
  private:
@@ -147,7 +145,7 @@ class TriangleSelection {
 };
 
 /// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so every pair
-/// then has a selected triangle. Therefore a query is restricted only if both selections are given.
+/// is then a selected pair. Therefore a query is restricted only if both selections are given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;
