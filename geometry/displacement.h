@@ -1,7 +1,7 @@
 #pragma once
 
-/// Displacements of a rigid part about its reference point, a point fixed in the part, with bounds on the motion of the
-/// part's points; rigid poses, and how far a matrix is from a rotation.
+/// Displacements of a rigid part about a reference point fixed in the part, and bounds on the motion of the part's
+/// points. Also rigid poses, and measures of how far a matrix is from a rotation.
 
 #include <cmath>
 #include <optional>
@@ -32,31 +32,32 @@ Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
 /// of the result stays orthonormal to rounding, however many displacements are chained.
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);
 
-/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)), where p_V and p_G are the
-/// positions of the reference point in the world before and after. `p_Vref` is the reference point in the part's frame.
+/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)). Here p_V and p_G are the
+/// positions of the reference point in the world before and after the displacement. `p_Vref` is the reference point in
+/// the part's frame.
 Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
                                   const Eigen::Vector3d& p_Vref);
 
-/// Upper bound (metres) on the distance |x(t) − x(0)| of any point x of a part from its start, for every t of the path
-/// of a displacement. The bound is |v| + 2 sin(|w|/2) ρ, where ρ = `radius` is the largest distance of a point of the
-/// part from the reference point. An angle |w| beyond π counts as π.
+/// Upper bound (metres) of the distance |x(t) − x(0)| that any point x of a part moves in a displacement, for every t.
+/// The bound is |v| + 2 sin(|w|/2) ρ. Here ρ = `radius` is the largest distance of a point of the part from the
+/// reference point. An angle |w| beyond π counts as π.
 double motion_bound(const Displacement& d, double radius);
 
-/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). The fraction is 1 if the whole
-/// displacement d satisfies this inequality. Because `motion_bound` is not linear in d, f is not simply `longest` /
-/// motion_bound(d, radius).
+/// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). f is 1 if the whole displacement
+/// d satisfies this inequality. f is not simply `longest` / motion_bound(d, radius), because `motion_bound` is not
+/// linear.
 double fraction_within(const Displacement& d, double radius, double longest);
 
-/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R (declared
-/// below) is below 1e-12. Every product of a few rotations has so small a defect. Replaces R by the nearest rotation if
-/// the defect is between 1e-12 and 1e-4. Returns nothing for a larger defect, for a reflection, and for a coordinate of
-/// p that is not finite or beyond ±1e9 m. The rotation of a result thus has a defect below 1e-12, so error bounds
-/// derived for rotations hold for the result. Cost: about ten nanoseconds.
+/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R is below 1e-12,
+/// as for every product of a few rotations. Replaces R by the nearest rotation if the defect is between 1e-12 and 1e-4.
+/// Returns std::nullopt for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond
+/// ±1e9 m. So the rotation of a result has a defect below 1e-12, and error bounds derived for rotations hold. Cost:
+/// about ten nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
 /// The defect δ: the sum of the absolute entries of RᵀR − 1, where 1 is the identity matrix. The defect is 0 for an
-/// exact rotation or reflection, and an upper bound of every common norm of RᵀR − 1. The defect is not finite when R
-/// has an entry that is not finite.
+/// exact rotation or reflection. It is an upper bound of every common norm of RᵀR − 1. It is not finite when R has an
+/// entry that is not finite.
 inline double rotation_defect(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Edges and vertices of a mesh with the triangles that meet at each of them, and the mesh's features: the edges and
-/// vertices for which contact constraints are made. Also a report of the mesh's size and defects. The orientation of
-/// triangles is not used, so meshes straight from CAD are suitable.
+/// Edges and vertices of a mesh, the triangles that meet there, and features, i.e. the edges and vertices that can make
+/// contact constraints. Also a report of the size and defects of a mesh. The orientation of triangles is not used, so
+/// meshes straight from CAD are suitable.
 
 #include <array>
 #include <cstdint>
@@ -15,20 +15,20 @@
 
 namespace glissade::geometry {
 
-/// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner: one of the triangles
-/// that meet there. A contact search considers an edge or vertex only at its owner, so every contact is found once,
-/// always with the same feature numbers. Degenerate triangles are ignored. Immutable after construction, so safe to
-/// share between threads.
+/// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner, i.e. one of the
+/// triangles that meet there. A contact search considers an edge or vertex only at its owner. So it finds every contact
+/// once, always with the same feature numbers. Degenerate triangles are ignored. Immutable after construction, so safe
+/// to share between threads.
 ///
 /// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). A
 /// feature stops another mesh if a contact at this feature keeps the two meshes apart. In every contact of two meshes,
-/// a vertex of one meets a face, edge or vertex of the other, or an edge of one meets an edge of the other.
+/// either a vertex of one mesh meets a face, edge or vertex of the other mesh, or two edges meet.
 class MeshTopology {
  public:
   struct Edge {
     std::array<std::int32_t, 2> vertices;
     std::int32_t owner;  ///< the triangle that owns the edge
-    bool flat;           ///< exactly two triangles meet here, side by side in one plane
+    bool flat;           ///< the edge joins exactly two triangles, side by side in one plane
   };
 
   /// Cost O(n log n).
@@ -36,38 +36,37 @@ class MeshTopology {
 
   const std::vector<Edge>& edges() const { return edges_; }
 
-  /// The numbers of the edges of a triangle: edge i joins corners i and i + 1, edge 2 joins corners 2 and 0. All are −1
-  /// for a degenerate triangle.
+  /// The numbers of the edges of a triangle; −1 for a degenerate triangle. Edge i joins corners i and (i + 1) mod 3.
   const std::array<std::int32_t, 3>& edges_of(std::int32_t triangle) const {
     return triangle_edges_[static_cast<std::size_t>(triangle)];
   }
-  /// The vertices opposite an edge, one for each triangle that meets there.
+  /// The vertices opposite an edge, one vertex for each triangle at the edge.
   std::span<const std::int32_t> apexes_of(std::int32_t edge) const { return apexes_.of(edge); }
   /// The vertices joined to a vertex by an edge.
   std::span<const std::int32_t> neighbors_of(std::int32_t vertex) const { return neighbors_.of(vertex); }
   /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether a vertex can stop another mesh. All vertices can, except vertices inside a plane patch and vertices inside
-  /// a straight rim. A vertex is inside a plane patch if all its edges are flat; the features on the boundary of the
-  /// patch stop other meshes instead. A rim is a run of edges that are not flat; it ends at vertices where it bends or
-  /// where other rims meet it. A vertex is inside a straight rim if exactly two of its edges are not flat, these two
-  /// continue each other without a bend, and the vertex lies within 0.1 µm of the chord between the ends of the rim.
-  /// The edges and the end vertices of the rim stop other meshes instead.
+  /// Whether a vertex can stop another mesh. All vertices can, except those inside a plane patch or inside a straight
+  /// rim. A vertex is inside a plane patch if all its edges are flat. The features on the boundary of the patch stop
+  /// other meshes instead. A rim is a run of edges that are not flat. It ends at vertices where it bends or meets other
+  /// rims. A vertex is inside a straight rim if exactly two of its edges are not flat, these two edges continue each
+  /// other without a bend, and the vertex lies within 0.1 µm of the chord between the ends of the rim. The edges and
+  /// the end vertices of the rim stop other meshes instead.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
-  /// Whether a triangle owns any feature. A triangle that owns no feature stops other meshes with its face only, and a
-  /// face stops only vertices.
+  /// Whether a triangle owns any feature. A triangle without a feature stops other meshes with its face only. A face
+  /// stops only vertices.
   bool owns_stopping_feature(std::int32_t triangle) const {
     return owned_features_[static_cast<std::size_t>(triangle)] != 0;
   }
-  /// Whether two triangles of two meshes can stop each other with the features that they own. A vertex stops any
-  /// triangle, but an edge stops only edges and vertices. So the answer is true if either triangle owns a vertex that
-  /// can stop another mesh, or if both own edges that are not flat.
+  /// Whether two triangles of two meshes can stop each other with features that they own: at least one triangle owns a
+  /// vertex that can stop another mesh, or both triangles own edges that are not flat. A vertex stops any triangle, but
+  /// an edge stops only edges and vertices.
   bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
     const int mine = owned_features_[static_cast<std::size_t>(triangle)];
     const int others = other.owned_features_[static_cast<std::size_t>(triangle_of_other)];
     return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
   }
-  /// Whether corner i of a triangle, or edge i, is a feature that this triangle owns.
+  /// Whether corner i or edge i of a triangle is a feature that the triangle owns.
   bool owns_corner(std::int32_t triangle, int i) const { return owns(triangle, i); }
   bool owns_edge(std::int32_t triangle, int i) const { return owns(triangle, 3 + i); }
 
@@ -103,14 +102,14 @@ class MeshTopology {
 };
 
 /// Size and defects of a mesh, for the user's information. Meshes with these defects are valid input for this library.
-/// Counts for a welded mesh: edges and components are found by shared vertex indices, not by positions. Degenerate
+/// Intended for welded meshes: edges and components are found by shared vertex indices, not by positions. Degenerate
 /// triangles appear in `triangles` and `degenerate` only.
 struct MeshReport {
   std::int64_t vertices = 0;            ///< including vertices that no triangle uses
   std::int64_t triangles = 0;           ///< including degenerate triangles
   std::int64_t degenerate = 0;          ///< triangles without area
   std::int64_t duplicates = 0;          ///< triangles with the same three vertices as an earlier triangle
-  std::int64_t open_edges = 0;          ///< edges of only one triangle: the boundary
+  std::int64_t open_edges = 0;          ///< boundary edges: edges of only one triangle
   std::int64_t nonmanifold_edges = 0;   ///< edges of more than two triangles
   std::int64_t inconsistent_edges = 0;  ///< edges that exactly two triangles share and traverse in the same direction
   std::int64_t components = 0;          ///< sets of triangles connected through shared vertices

@@ -24,15 +24,15 @@ struct FrameVelocity {
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< angular velocity of B, in world axes; rad/s
 };
 
-/// A pose for every time. Between two rows the translation is linear and the rotation a slerp along the shorter arc.
-/// Before the first row and after the last, the pose is constant. Immutable after construction, so safe to share
-/// between threads.
+/// A pose for every time. Between two rows, the translation is linear and the rotation is a slerp along the shorter
+/// arc. Before the first row and after the last row, the pose is constant. Immutable after construction, so safe to
+/// share between threads.
 class PoseTrajectory {
  public:
-  /// Throws std::invalid_argument when there is no row. Also throws, naming the row (counted from 0), for a row whose
-  /// time is not greater than the time of the row before, whose pose is not finite, or whose matrix R is not a
-  /// rotation. An R counts as a rotation if every entry of RᵀR − 1 (1: the identity matrix) is at most 1e-3 in absolute
-  /// value and R is not a reflection.
+  /// Throws std::invalid_argument when there is no row. Also throws, naming the row (counted from 0), when the time of
+  /// a row is not greater than the time of the row before, when a pose is not finite, or when its matrix R is not a
+  /// rotation. R counts as a rotation if it is no reflection and every entry of RᵀR − 1 (1: the identity matrix) is at
+  /// most 1e-3 in absolute value.
   explicit PoseTrajectory(std::vector<TimedPose> rows);
 
   /// The rows, as they were given or scaled in time. Valid as long as the trajectory.
@@ -44,12 +44,12 @@ class PoseTrajectory {
   /// The pose X_WB at `time`. Real-time safe; O(log rows).
   Eigen::Isometry3d pose_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The exact time derivative of `pose_at`. Between two rows the velocity is constant. At a row, it is the velocity of
-  /// the piece that starts there. The velocity is zero before the first row, and from the last row on. Real-time safe;
-  /// O(log rows).
+  /// The exact time derivative of `pose_at`. Between two rows, the velocity is constant. At a row, the result is the
+  /// velocity of the piece that starts there. The velocity is zero before the first row, and from the last row on.
+  /// Real-time safe; O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The same path with the same first time; all later times are scaled so that the path takes `duration`. Throws
+  /// The same path with the same first time. All later times are scaled so that the path takes `duration`. Throws
   /// std::invalid_argument when `duration` is not positive, or so short that two rows would have the same time in
   /// nanoseconds.
   PoseTrajectory time_scaled(std::chrono::nanoseconds duration) const;

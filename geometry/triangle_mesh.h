@@ -1,7 +1,7 @@
 #pragma once
 
 /// A triangle soup with shared vertices, and simple operations on meshes, such as merge, transform and weld. The
-/// operations are pure functions, which any thread may call, at a cost that is linear in the size of the input.
+/// operations are pure functions that any thread may call. The cost is linear in the size of the input.
 
 #include <array>
 #include <cstdint>
@@ -18,9 +18,9 @@ using Triangle = std::array<std::int32_t, 3>;
 
 /// Triangles over an indexed set of vertices, in metres, in the frame of their object.
 ///
-/// Nothing is assumed of the surface: it may be open, non-manifold, self-intersecting and inconsistently oriented, and
-/// triangles may be degenerate. Two triangles are adjacent only where they share vertex indices, so meshes should be
-/// welded. `import_mesh` welds meshes.
+/// The surface may be open, non-manifold, self-intersecting and inconsistently oriented, and triangles may be
+/// degenerate. Two triangles are adjacent only where they share vertex indices, so meshes should be welded.
+/// `import_mesh` welds meshes.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
@@ -30,25 +30,27 @@ struct TriangleMesh {
     return vertices[static_cast<std::size_t>(
         triangles[static_cast<std::size_t>(triangle)][static_cast<std::size_t>(corner)])];
   }
-  /// All three.
+  /// All three corners of triangle `triangle`.
   std::array<Eigen::Vector3d, 3> corners(std::int32_t triangle) const {
     return {corner(triangle, 0), corner(triangle, 1), corner(triangle, 2)};
   }
 };
 
-/// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded: the input meshes
-/// stay separate components. Throws std::invalid_argument when the result would have more than 2^31 - 1 vertices.
+/// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded, so the input
+/// meshes stay separate components. Throws std::invalid_argument when the result would have more than 2^31 - 1
+/// vertices.
 TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
 /// The mesh in coordinates of frame A; `mesh_B` is in coordinates of frame B.
 TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_AB);
 
-/// The same triangles, each with its orientation reversed with probability one half. Equal seeds give equal meshes. For
-/// tests: nothing in this library may depend on the orientation of triangles.
+/// The mesh with the orientation of each triangle reversed with probability one half. Equal seeds give equal meshes.
+/// For tests that nothing in this library depends on the orientation of triangles.
 TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
 /// The mesh with vertices at identical positions merged; 0 and -0 count as identical. Keeps all triangles, including
-/// degenerate triangles, in their order. Drops vertices that no triangle uses, and numbers the others by first use.
+/// degenerate triangles, in their order. Drops vertices that no triangle uses, and numbers the other vertices by first
+/// use.
 TriangleMesh weld(const TriangleMesh& mesh);
 
 /// The box round all vertices, along the axes of the mesh's frame; empty without vertices.
@@ -58,8 +60,8 @@ Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh);
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
 /// The mesh with the given triangles (indices in ascending order) made degenerate. Degenerate triangles take part in no
-/// query, and all other triangles keep their indices. Use this function if a part in its final position overlaps an
-/// obstacle by design, such as a car radio that presses on the spring tongues of its slot: remove from the obstacle's
+/// query. All other triangles keep their indices. Use this function if a part in its final position overlaps an
+/// obstacle by design, such as a car radio that presses on the spring tongues of its slot. Remove from the obstacle's
 /// mesh the triangles that bend out of the way in reality.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 

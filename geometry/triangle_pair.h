@@ -1,7 +1,7 @@
 #pragma once
 
-/// Two triangles: exact intersection test; distance and closest points up to rounding, of one pair or eight at once;
-/// the features on which closest points lie.
+/// Pairs of triangles: an exact intersection test, the distance and closest points (up to rounding) of one or eight
+/// pairs, and the features on which closest points lie.
 
 #include <algorithm>
 #include <array>
@@ -16,12 +16,12 @@ namespace glissade::geometry {
 /// The three corners of a triangle, all in one frame.
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
-/// Whether a triangle has no area because its three points lie on one line. Decided exactly.
+/// Whether a triangle has no area because its three points lie on one line. Exact.
 bool is_degenerate(const TrianglePoints& triangle);
 
-/// Whether two closed triangles share a point, decided exactly for these coordinates; touching counts. Coplanar pairs,
-/// shared edges and shared vertices are ordinary cases. `a` must not be degenerate. `b` may be degenerate, for example
-/// by rounding in a transformation; a degenerate `b` counts as the segment or point to which it has collapsed.
+/// Whether two closed triangles share a point. Exact for the given coordinates; touching counts. Coplanar pairs, shared
+/// edges and shared vertices need no special treatment. `a` must not be degenerate. `b` may be degenerate, for example
+/// by rounding in a transformation. A degenerate `b` counts as the segment or point to which it has collapsed.
 bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
 
 /// The distance of two triangles in metres, and the two points at this distance.
@@ -31,16 +31,17 @@ struct TriangleDistance {
   Eigen::Vector3d p_b;  ///< on the second triangle
 };
 
-/// Closest points of two closed triangles. The distance is exactly 0 if and only if `triangles_intersect(a, b)`; both
-/// points are then, up to rounding, one point of the intersection. Otherwise the distance is accurate to a few units in
-/// the last place of the largest coordinate. `a` must not be degenerate; `b` may be, as in `triangles_intersect`.
+/// Closest points of two closed triangles. The distance is exactly 0 if and only if `triangles_intersect(a, b)`. Both
+/// points are then the same point of the intersection, up to rounding. Otherwise the distance is accurate to a few
+/// units in the last place of the largest coordinate. `a` must not be degenerate; `b` may be, as in
+/// `triangles_intersect`.
 TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints& b);
 
 inline constexpr std::size_t kPairsToMeasure = 8;
 
-/// A vector of each pair: [axis][pair], metres.
+/// One vector for each pair, as [axis][pair], metres.
 using VectorsOfPairs = std::array<std::array<double, kPairsToMeasure>, 3>;
-/// A triangle of each pair: [corner][axis][pair], metres.
+/// One triangle for each pair, as [corner][axis][pair], metres.
 using TrianglesOfPairs = std::array<VectorsOfPairs, 3>;
 
 inline void put_triangle(const TrianglePoints& triangle, std::size_t pair, TrianglesOfPairs& triangles) {
@@ -53,13 +54,13 @@ inline Eigen::Vector3d vector_of_pair(const VectorsOfPairs& vectors, std::size_t
   return {vectors[0][pair], vectors[1][pair], vectors[2][pair]};
 }
 
-/// Pairs of triangles in one frame. Entries that are not used may have any values.
+/// Pairs of triangles in one frame. Unused entries may have any values.
 struct alignas(64) TrianglesToMeasure {
   TrianglesOfPairs a;
   TrianglesOfPairs b;
 };
 
-/// The closest points of two edges, or of a corner and a face.
+/// The closest points of each pair of triangles: points of two edges, or a corner and a point of a face.
 struct alignas(64) ClosestPoints {
   std::array<double, kPairsToMeasure> squared_distance;
   std::array<double, kPairsToMeasure> is_apart;  ///< 1 where the triangles certainly do not intersect, else 0
@@ -67,8 +68,8 @@ struct alignas(64) ClosestPoints {
   VectorsOfPairs p_b;
 };
 
-/// The same points as `triangle_distance`, bit for bit, and the square of their distance, for pairs that do not
-/// intersect. Others are not said to be apart, and have points of no meaning. In vector code. Thread-safe.
+/// Finds, for each pair that does not intersect, the same points as `triangle_distance`, bit for bit, and the square of
+/// the distance. Other pairs have `is_apart` 0 and meaningless points. Uses vector code. Thread-safe.
 void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& closest);
 
 /// The kind of feature on which a point of a triangle lies.
@@ -80,7 +81,7 @@ struct ClosestOnTriangle {
   int index;  ///< number of the edge (joins corners index and index + 1) or of the vertex
 };
 
-/// The point of a triangle closest to x, by the triangle's Voronoi regions.
+/// The point of a triangle closest to x, found by the triangle's Voronoi regions.
 inline ClosestOnTriangle closest_on_triangle(const Eigen::Vector3d& x, const TrianglePoints& t) {
   const Eigen::Vector3d normal = (t[1] - t[0]).cross(t[2] - t[0]);
   bool outside_any = false;
@@ -104,8 +105,8 @@ inline ClosestOnTriangle closest_on_triangle(const Eigen::Vector3d& x, const Tri
   return {t[static_cast<std::size_t>(nearest)], Region::kVertex, nearest};
 }
 
-/// Closest points of the lines through two segments, and their positions along the segments: 0 at the first end, 1 at
-/// the second.
+/// Closest points `p` and `q` of the lines through two segments. Positions along a segment are 0 at its first end and 1
+/// at its second end.
 struct SegmentPoints {
   Eigen::Vector3d p;
   Eigen::Vector3d q;
@@ -113,7 +114,7 @@ struct SegmentPoints {
   double along_q;
 };
 
-/// The closest points of the lines through two segments. Returns false where these are parallel.
+/// Finds the closest points of the lines through two segments. Returns false if the lines are parallel.
 inline bool closest_points_of_lines(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                     const Eigen::Vector3d& q1, SegmentPoints& closest) {
   constexpr double kParallelSineSquared = 1e-12;
@@ -131,8 +132,8 @@ inline bool closest_points_of_lines(const Eigen::Vector3d& p0, const Eigen::Vect
   return true;
 }
 
-/// The closest points of two segments if both lie strictly inside them and the segments are not parallel.
-/// Returns false otherwise.
+/// Finds the closest points of two segments. Returns false if the segments are parallel, or if a closest point of the
+/// lines is not strictly inside its segment.
 inline bool interior_closest_points(const Eigen::Vector3d& p0, const Eigen::Vector3d& p1, const Eigen::Vector3d& q0,
                                     const Eigen::Vector3d& q1, SegmentPoints& closest) {
   if (!closest_points_of_lines(p0, p1, q0, q1, closest)) return false;
