@@ -1,29 +1,29 @@
 #pragma once
 
-/// Clocks for loops: the clock of the machine, and a simulated clock. With the simulated clock, a loop is deterministic
+/// Clocks for loops: the clock of the machine, and a simulated clock. A loop on the simulated clock is deterministic
 /// and runs as fast as it can.
 
 #include <chrono>
 
 namespace glissade::realtime {
 
-/// A source of time that can also wait. Times are nanoseconds since an epoch that is arbitrary but fixed for the
-/// clock's life.
+/// A source of time that can also wait. Times are nanoseconds since an arbitrary epoch, which is fixed for the clock's
+/// life.
 class Clock {
  public:
   virtual ~Clock() = default;
 
   virtual std::chrono::nanoseconds now() const noexcept = 0;
 
-  /// Returns as soon as now() ≥ `deadline`, and at once if the deadline has already passed. May block.
+  /// Returns as soon as now() ≥ `deadline`. May block.
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
 
-  /// As `sleep_until`, for the last stretch before a deadline: a clock that can do so keeps the processor and reads the
-  /// time again and again, so that no wake-up comes late.
+  /// As `sleep_until`, for a short time before a deadline. If a clock can spin, it reads the time in a busy loop
+  /// instead of giving up the processor, so that no wake-up comes late.
   virtual void spin_until(std::chrono::nanoseconds deadline) noexcept { sleep_until(deadline); }
 };
 
-/// CLOCK_MONOTONIC, with the same epoch for every process of a machine. Any number of threads may use one object.
+/// CLOCK_MONOTONIC. The epoch is the same for all processes of a machine. Any number of threads may use one object.
 class SteadyClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override;

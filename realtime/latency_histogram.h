@@ -1,7 +1,7 @@
 #pragma once
 
-/// A histogram of durations in fixed memory: record millions of durations in a real-time loop, and read quantiles
-/// afterwards.
+/// A histogram of durations in fixed memory. A real-time loop can record millions of durations, and a program can read
+/// quantiles afterwards.
 
 #include <array>
 #include <chrono>
@@ -13,7 +13,7 @@ namespace glissade::realtime {
 /// A log-linear histogram of durations in nanoseconds. Below 128 ns each duration has its own bucket. From there to
 /// 2^40 ns (18 minutes), each power of two has 64 buckets.
 ///
-/// Not thread-safe: read a histogram in the thread that records, or after that thread has been joined.
+/// Not thread-safe. Read a histogram in the thread that records, or after that thread has been joined.
 class LatencyHistogram {
  public:
   /// A reported quantile is never below the exact quantile. A reported quantile below 18 minutes exceeds the exact
@@ -21,7 +21,7 @@ class LatencyHistogram {
   static constexpr double kRelativeError = 1.0 / 64.0;
 
   /// Adds one duration. A negative duration counts as 0. All durations of 2^40 ns or more share the last bucket, so
-  /// quantiles do not distinguish them, but `max()` is exact. Wait-free, no allocation.
+  /// quantiles do not distinguish them. Wait-free, no allocation.
   void record(std::chrono::nanoseconds duration) noexcept;
 
   /// Adds all durations of `other`.
@@ -29,15 +29,15 @@ class LatencyHistogram {
 
   std::uint64_t count() const noexcept { return count_; }
 
-  /// Number of recorded durations of at most `duration`; those that exceed it by a fraction kRelativeError may or may
-  /// not count. The difference of two calls is a bar of a drawn histogram.
+  /// Number of recorded durations of at most `duration`. Durations up to (1 + kRelativeError) × `duration` may also
+  /// count. The difference of the results of two calls is a bar of a drawn histogram.
   std::uint64_t count_up_to(std::chrono::nanoseconds duration) const noexcept;
 
   /// The largest recorded duration, exact; 0 when nothing was recorded.
   std::chrono::nanoseconds max() const noexcept { return std::chrono::nanoseconds(max_); }
 
   /// The `p`-quantile: the smallest recorded duration d such that at least the fraction `p` of all durations is at most
-  /// d. `p` is clamped to 0…1. The result is rounded up as stated at `kRelativeError`. The result is 0 when nothing was
+  /// d. `p` is clamped to 0…1. The result is rounded up as stated at `kRelativeError`, and is 0 when nothing was
   /// recorded. quantile(0.5) is the median, quantile(1) is max().
   std::chrono::nanoseconds quantile(double p) const noexcept;
 

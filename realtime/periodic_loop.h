@@ -2,16 +2,16 @@
 
 /// A loop that calls a function at a fixed rate and records its punctuality. A tick is one call of this function.
 ///
-/// The rule: the deadlines form a fixed grid, start + k · period. A tick counts as late when it starts at or after the
-/// deadline that follows its own deadline. After each tick, the loop continues with the first later deadline whose
-/// successor has not passed yet. The loop skips and counts the deadlines in between. So ticks never run in bursts to
-/// catch up, the loop never drifts, and after an overrun the next tick starts at once.
+/// The scheduling rule: the deadlines form a fixed grid, start + k · period. A tick counts as late when it starts at or
+/// after the deadline that follows its own deadline. After each tick, the loop continues with the first later deadline
+/// whose successor has not passed yet. The loop skips and counts the deadlines in between. So ticks never run in
+/// bursts, and the loop never drifts. After an overrun, the next tick starts at once.
 ///
-/// Between ticks, the loop sleeps until the absolute time of the next deadline. A sleep ends late, by the time that the
-/// system needs to wake the thread up. Who wants to start on time lets the loop spin: it then sleeps until some time
-/// before the deadline, and reads the clock until the deadline has come. Spinning costs that part of a core, which on a
-/// small machine the simulation needs more, so without a wish the loop does not spin. Spinning does not shorten the
-/// longest delays either, in which the thread does not get the processor at all. docs/real_time.md has measurements.
+/// Between ticks, the loop sleeps until the absolute time of the next deadline. The sleep ends late by the time that
+/// the system needs to wake the thread. With spinning, the loop sleeps until a set time before the deadline, and then
+/// reads the clock until the deadline. Spinning is off by default, because it takes a part of a core from other
+/// threads. Spinning does not shorten the longest delays, in which the thread does not get the processor.
+/// docs/real_time.md has measurements.
 
 #include <chrono>
 #include <cstdint>
@@ -21,11 +21,11 @@
 
 namespace glissade::realtime {
 
-/// Statistics of one loop. Each run adds to the statistics, so that one loop may be split into several runs.
+/// Statistics of one loop. Each run adds to the statistics, so a loop may be split into several runs.
 struct PeriodicStatistics {
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;         ///< ticks that started a period or more after their deadline
-  std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, because an earlier tick or wake-up took too long
+  std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, after a late wake-up or a long tick
   LatencyHistogram lateness;            ///< start of the tick minus its deadline
   LatencyHistogram duration;            ///< end of the tick minus its start
 };
@@ -37,7 +37,7 @@ struct PeriodicTick {
   std::chrono::nanoseconds start;     ///< actual start of this tick
 };
 
-/// The bookkeeping of deadlines by the rule at the head of this file, without a clock. `run_periodic` is the complete
+/// Computes deadlines by the scheduling rule at the head of this file, without a clock. `run_periodic` is the complete
 /// loop.
 class PeriodicSchedule {
  public:
@@ -55,13 +55,13 @@ class PeriodicSchedule {
   std::chrono::nanoseconds deadline_;
 };
 
-/// Throws std::invalid_argument unless 0 ≤ `spin` ≤ `period` / 2: under SCHED_FIFO, a loop that spins all the time
-/// keeps everything else from its processor.
+/// Throws std::invalid_argument unless 0 ≤ `spin` ≤ `period` / 2. Under SCHED_FIFO, a loop that spins all the time
+/// would block all other threads of its processor.
 void validate_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period);
 
 /// Calls `tick(const PeriodicTick&) -> bool` every `period` in the calling thread until the tick returns false. The
-/// first call is one period from now. Adds to `statistics` in place. Allocates nothing, locks nothing; between ticks
-/// the loop sleeps on `clock`, except that it spins for `spin` before each deadline. Throws std::invalid_argument when
+/// first call is one period from now. Adds to `statistics` in place. Allocates and locks nothing. Between ticks, the
+/// loop sleeps on `clock`, and then spins for the time `spin` before the deadline. Throws std::invalid_argument when
 /// `period` is not positive, and as `validate_spin` does.
 template <typename Tick>
 void run_periodic(Clock& clock, std::chrono::nanoseconds period, PeriodicStatistics& statistics, Tick&& tick,

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A thread that calls a function, the tick function, at a fixed rate: `run_periodic` in a thread of its own. And what
-/// such a thread needs of its system: a place ahead of other work, and memory that is there when a tick touches it.
+/// A thread that calls a tick function at a fixed rate by `run_periodic`. Also functions that request real-time
+/// priority and locked memory from the system.
 
 #include <atomic>
 #include <chrono>
@@ -16,16 +16,15 @@
 
 namespace glissade::realtime {
 
-/// SCHED_FIFO priorities of the threads between a device and its forces. A thread's work is done before that of those
-/// it has to wait for.
+/// SCHED_FIFO priorities of the threads between the states and the forces of a device.
 inline constexpr int kHapticPriority = 80;
-inline constexpr int kLinkPriority = 75;        ///< receives states and sends commands, or the other way round
-inline constexpr int kSimulationPriority = 70;  ///< answers with contacts
+inline constexpr int kLinkPriority = 75;        ///< receives states and sends commands, or vice versa
+inline constexpr int kSimulationPriority = 70;  ///< computes contacts
 
-/// The kernel holds up all threads of a processor under SCHED_FIFO where they compute for nearly all of a second (by
-/// default 0.95 s, `sched_rt_runtime_us`), the haptic thread among them. So the others have their priority for a share
-/// of the time only. With one glove, the shares are 0.8 of one processor together.
-inline constexpr double kLinkShare = 0.1;  ///< receiving and sending, each
+/// The shares of the time for which other threads than the haptic thread have their priority. The kernel stops all
+/// SCHED_FIFO threads of a processor, including the haptic thread, once they compute for nearly all of a second (by
+/// default 0.95 s, `sched_rt_runtime_us`). With one glove, the shares add up to 0.8 of one processor.
+inline constexpr double kLinkShare = 0.1;  ///< of each thread that receives or sends
 inline constexpr double kSimulationShare = 0.4;
 inline constexpr double kSearchShare = 0.2;  ///< of a thread that searches for contacts
 
@@ -33,46 +32,46 @@ inline constexpr double kSearchShare = 0.2;  ///< of a thread that searches for 
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   int fifo_priority = 0;    ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
-  double fifo_share = 1.0;  ///< as in `FifoShare`; 1: the priority is for good
-  /// Time before each deadline for which the thread reads the clock instead of sleeping, as in `run_periodic`.
+  double fifo_share = 1.0;  ///< as in `FifoShare`; 1: the priority is permanent
+  /// Time before each deadline for which the thread spins instead of sleeping, as in `run_periodic`.
   std::chrono::nanoseconds spin{0};
-  std::string name;  ///< as in `name_this_thread`; empty: that of the thread that starts it
+  std::string name;  ///< as in `name_this_thread`; empty: the name of the starting thread
 };
 
-/// Names the calling thread for `top -H`, debuggers and /proc. The system keeps the first 15 bytes.
+/// Names the calling thread for `top -H`, debuggers and /proc. The system keeps the first 15 bytes of the name.
 void name_this_thread(std::string_view name) noexcept;
 
-/// Whether the system would grant `lock_memory`: this process may lock as much memory as it likes. Changes nothing.
+/// Whether the system would grant `lock_memory`, i.e. lets this process lock any amount of memory. Changes nothing.
 bool may_lock_memory() noexcept;
 
-/// Keeps all memory of this process, present and future, in its place, so that no thread waits for a page: the system
-/// neither moves pages out nor puts off to the first touch what it hands over, and the heap keeps what is freed. Then
-/// each thread occupies its whole stack, 8 MiB unless the system says otherwise. Returns whether it was granted; if
-/// not, nothing has changed. For programs, best at their start. Any thread.
+/// Locks all present and future memory of this process, so that no thread waits for a page. The system neither swaps
+/// pages out nor defers their allocation to the first access, and the heap keeps freed memory. Each thread then
+/// occupies its whole stack, by default 8 MiB. Returns whether the lock was granted; if not, nothing has changed.
+/// Programs should call this at their start. Any thread may call it.
 bool lock_memory() noexcept;
 
 /// What the system granted to a thread.
 struct ThreadScheduling {
   bool is_fifo = false;                  ///< the thread runs under SCHED_FIFO, ahead of every ordinary thread
   bool has_locked_memory = false;        ///< `lock_memory` had been granted when the thread started
-  bool has_minimal_timer_slack = false;  ///< the kernel does not delay timers to batch wake-ups (default: by 50 µs)
+  bool has_minimal_timer_slack = false;  ///< the kernel does not delay timers to batch wake-ups (default: up to 50 µs)
 };
 
-/// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99) where the system allows it, leaves its scheduling
-/// alone for `priority` 0, and sets its timer slack to the minimum. Where it does not allow it, asks for short slices
-/// of time from `kLinkPriority` on: such threads compute little at a time. Never fails: a refusal shows in the result.
+/// Puts the calling thread under SCHED_FIFO with `priority` (1 to 99); 0 leaves the policy unchanged. Also sets the
+/// timer slack of the thread to the minimum. If the system refuses SCHED_FIFO and `priority` is at least kLinkPriority,
+/// requests short time slices instead. Never fails: a refusal shows in the result.
 ThreadScheduling schedule_this_thread(int priority) noexcept;
 
-/// The priority of the calling thread under SCHED_FIFO; 0: an ordinary thread.
+/// The SCHED_FIFO priority of the calling thread; 0 for an ordinary thread.
 int fifo_priority_of_this_thread() noexcept;
 
-/// Whether a thread is within its share of each window of time, by what it tells of its computing.
+/// Checks whether a thread computes for no more than its share of each window of 10 ms.
 class TimeShare {
  public:
-  /// `share` is that of a window in which the thread may compute, 0 to 1.
+  /// `share`, from 0 to 1, is the fraction of a window in which the thread may compute.
   explicit TimeShare(double share) : share_(share) {}
 
-  /// `now` is the time, `computed` all that the thread has computed so far.
+  /// `now` is the time, `computed` the total processor time of the thread so far.
   bool is_within(std::chrono::nanoseconds now, std::chrono::nanoseconds computed) noexcept;
 
  private:
@@ -81,18 +80,18 @@ class TimeShare {
   std::chrono::nanoseconds computed_before_{0};
 };
 
-/// A priority under SCHED_FIFO for a share of the time: a thread that has computed for longer in a window of 10 ms is
-/// an ordinary one until the next window. For the thread itself, which makes and uses the object. Calls the system, so
-/// it is not for the haptic thread.
+/// A SCHED_FIFO priority for a share of the time. A thread that computes for more than its share of a window of 10 ms
+/// is an ordinary thread until the next window. The thread itself constructs and uses the object. The haptic thread
+/// must not use it, because `check` calls the system.
 class FifoShare {
  public:
-  /// Asks for `priority` as `schedule_this_thread` does.
+  /// Requests `priority` as `schedule_this_thread` does.
   FifoShare(int priority, double share)
       : priority_(priority), share_(share), scheduling_(schedule_this_thread(priority)) {}
 
   const ThreadScheduling& scheduling() const noexcept { return scheduling_; }
 
-  /// To be called often: at the end of a tick, or every millisecond of a long work.
+  /// Call this often: at the end of a tick, or every millisecond of a long computation.
   void check() noexcept;
 
  private:
@@ -102,7 +101,7 @@ class FifoShare {
   bool is_ahead_ = true;
 };
 
-/// The thread starts in the constructor. The thread ends when the tick function returns false, on `stop()`, or in the
+/// The thread starts in the constructor. It ends when the tick function returns false, on `stop()`, or in the
 /// destructor. Thread-safety: only the thread that owns the object may call its functions.
 class PeriodicThread {
  public:
@@ -110,8 +109,8 @@ class PeriodicThread {
   using Tick = std::function<bool(const PeriodicTick&)>;
 
   /// `clock` must outlive the thread. Returns once the thread runs and its scheduling is known. Throws
-  /// std::invalid_argument when the period is not positive, the spin too long or the tick function empty, and
-  /// std::system_error when the system cannot start a thread.
+  /// std::invalid_argument when the period is not positive, when the spin is too long, and when the tick function is
+  /// empty. Throws std::system_error when the system cannot start a thread.
   PeriodicThread(Clock& clock, const PeriodicThreadOptions& options, Tick tick);
   PeriodicThread(const PeriodicThread&) = delete;
   PeriodicThread& operator=(const PeriodicThread&) = delete;
@@ -122,8 +121,8 @@ class PeriodicThread {
   /// Waits until the tick function has returned false.
   void join();
 
-  /// Lets a running call of the tick function finish, and makes no further call. Waits until the thread has ended. The
-  /// thread ends at its next deadline, at most about one period later.
+  /// Ends the thread without a further call of the tick function, and waits for the end. A running call finishes first.
+  /// The thread ends at its next deadline, at most about one period later.
   void stop();
 
   /// Statistics of the loop, valid once `join()` or `stop()` has returned.

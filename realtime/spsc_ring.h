@@ -1,7 +1,7 @@
 #pragma once
 
-/// A bounded queue from one thread to another. When the queue is full, new values are dropped and counted; no thread
-/// ever waits. Use the queue for logs and recordings, where every value matters; use `TripleBuffer` where only the
+/// A bounded queue from one thread to another. When the queue is full, new values are dropped and counted. No thread
+/// ever waits. Use the queue for logs and recordings, where every value matters. Use `TripleBuffer` where only the
 /// newest value matters.
 
 #include <atomic>
@@ -15,8 +15,8 @@
 
 namespace glissade::realtime {
 
-/// Thread-safety: one producer thread and one consumer thread; any thread may read the counters. Progress: push and pop
-/// are wait-free and bounded. Nothing is allocated after construction, unless T's assignment allocates.
+/// Thread-safety: one producer thread and one consumer thread. Any thread may call `dropped`. Progress: `push` and
+/// `pop` are wait-free and bounded. Allocates nothing after construction, unless T's assignment allocates.
 template <typename T>
 class SpscRing {
  public:
@@ -58,8 +58,8 @@ class SpscRing {
     return true;
   }
 
-  /// Consumer: calls `take` with each value that waits at the time of the call, the oldest first. Values pushed
-  /// meanwhile wait for the next call, so a producer that never ends holds nobody up.
+  /// Consumer: calls `take` with each value in the ring, the oldest first. Values pushed during the call wait for the
+  /// next call, so the call ends even if the producer never stops.
   template <typename Take>
   void pop_waiting(Take&& take) {
     std::uint64_t waiting = end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
@@ -67,7 +67,7 @@ class SpscRing {
       take(value);
   }
 
-  /// Any thread: number of values dropped so far.
+  /// Any thread: the number of values dropped so far.
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:

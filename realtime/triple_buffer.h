@@ -1,8 +1,7 @@
 #pragma once
 
-/// A buffer that passes the newest value from one thread to another, without locks and without waiting on either side.
-/// Use `TripleBuffer` for states and commands, where an old value is worth nothing; use `SpscRing` where every value
-/// matters.
+/// A buffer that passes the newest value from one thread to another. Neither thread locks or waits. Use `TripleBuffer`
+/// for states and commands, where old values are worthless. Use `SpscRing` where every value matters.
 
 #include <array>
 #include <atomic>
@@ -12,32 +11,31 @@
 
 namespace glissade::realtime {
 
-/// Three slots: one belongs to the writer, one to the reader, and one, the slot between, to neither. `publish`
-/// exchanges the writer's slot for the slot between; `update` exchanges the reader's slot for the slot between.
+/// A buffer of three slots. One slot belongs to the writer, one to the reader, and the middle slot to neither.
+/// `publish` exchanges the writer's slot for the middle slot. `update` exchanges the reader's slot for the middle slot.
 ///
 /// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free and bounded, whatever
-/// the other thread does and wherever it was pre-empted. Nothing is allocated, unless T's assignment allocates.
+/// the other thread does. Allocates nothing, unless T's assignment allocates.
 template <typename T>
 class TripleBuffer {
  public:
-  /// All three slots start as `initial`; this value does not count as published.
+  /// All three slots start as `initial`, which does not count as published.
   explicit TripleBuffer(const T& initial = T{}) : slots_{Slot{initial}, Slot{initial}, Slot{initial}} {}
 
   TripleBuffer(const TripleBuffer&) = delete;
   TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-  /// Writer: makes `value` the newest. Overwrites a published value that the reader has not fetched by `update`
-  /// yet.
+  /// Writer: makes `value` the newest value. A published value that no `update` has taken is lost.
   void publish(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     write_slot() = value;
     publish();
   }
 
-  /// Writer: the slot to fill in place before `publish()`. The slot holds an arbitrary older value: overwrite all of
+  /// Writer: the slot to fill in place before `publish()`. The slot holds an arbitrary older value, so overwrite all of
   /// it.
   T& write_slot() noexcept { return slots_[writer_].value; }
 
-  /// Writer: makes the contents of `write_slot()` the newest.
+  /// Writer: makes the contents of `write_slot()` the newest value.
   void publish() noexcept {
     writer_ = between_.exchange(static_cast<std::uint8_t>(writer_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
@@ -50,8 +48,7 @@ class TripleBuffer {
     return true;
   }
 
-  /// Reader: the value last taken by `update()`, or the initial one. The value does not change until the next
-  /// `update()`.
+  /// Reader: the value last taken by `update()`, or the initial value. It does not change until the next `update()`.
   const T& value() const noexcept { return slots_[reader_].value; }
 
   /// Reader: `update()` and `value()` in one.
@@ -64,7 +61,7 @@ class TripleBuffer {
   /// Bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation units.
   static constexpr std::size_t kCacheLineBytes = 64;
   static constexpr std::uint8_t kIndex = 3;
-  static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the update that takes it
+  static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the next update
 
   struct alignas(kCacheLineBytes) Slot {
     T value;
