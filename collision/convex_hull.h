@@ -59,7 +59,7 @@ class ConvexHull {
   /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
   /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
   /// `climbing_error`. The cost is proportional to the number of corners on the way and their neighbors. The way has
-  /// about √n corners from an arbitrary start. It has very few if `start` is the result for a similar direction.
+  /// about √n corners from an arbitrary start. The way is very short if `start` is the result for a similar direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
   /// A start for `support` when no better start is known: the corner farthest along some direction within a few degrees
@@ -76,8 +76,7 @@ class ConvexHull {
  private:
   using Edge = std::array<std::int32_t, 2>;
 
-  // Directions are classified by the cell of a cube that they point to. Each of the cube's six faces has kCells by
-  // kCells cells.
+  // Each direction points to a cell on the surface of a cube. Each of the cube's six faces has kCells by kCells cells.
   static constexpr int kCells = 8;
   static std::size_t cell_of(const Eigen::Vector3d& direction);
   void find_starts();
@@ -128,15 +127,15 @@ inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::i
 
 /// The test of two hulls. It runs if the plane of the last query no longer separates the hulls.
 enum class HullTest : std::uint8_t {
-  kExact,  ///< GJK to its end, from the simplex of the last query; exact to rounding, see `hulls_apart`
+  kExact,  ///< complete GJK, started from the simplex of the last query; exact up to rounding, see `hulls_apart`
   /// Up to 300 learning steps of a perceptron (paper §2.2). Each step turns a trial plane. The answer "apart" is
   /// certain, but the answer "not apart" may be wrong.
   kPerceptron,
 };
 
-/// Results of the last query of a pair of hulls. They speed up the next query. Its answer does not depend on them,
-/// except where rounding leaves the answer open. Keep one `HullMemory` for each pair of objects, and always pass the
-/// two hulls in the same order. Not thread-safe.
+/// Results of the last query of a pair of hulls. They speed up the next query. They do not change the answer, except
+/// where rounding leaves the answer open. Keep one `HullMemory` for each pair of objects, and always pass the two hulls
+/// in the same order. Not thread-safe.
 struct HullMemory {
   /// The separating plane. It is stored twice: fixed to A (n_A, reach_A), and fixed to B (n_B, reach_B). Normals are
   /// unit vectors from A to B.

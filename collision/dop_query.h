@@ -71,8 +71,8 @@ struct Penetration {
 /// thousandths of a radian. Along axes and diagonals, the search finds the nearest free place of any size, such as the
 /// middle of a hole. Along other directions, it may miss small free places. For convex bodies the depth is within a few
 /// per cent of the least depth. Meshes are surfaces without an inside. So a body inside a closed surface is apart from
-/// the surface if it does not touch it, and the shortest way out of a shell may lead inward. Only the translated pose
-/// is tested: on the path to this pose, B may meet A or other objects.
+/// the surface unless the two touch. The shortest way out of a shell may lead inward. Only the translated pose is
+/// tested: on the path to this pose, B may meet A or other objects.
 ///
 /// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws as the other queries do.
 Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,

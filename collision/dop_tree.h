@@ -24,7 +24,7 @@ class DopVertices;
 
 /// How a query encloses the nodes of one tree in DOPs aligned to the other tree.
 enum class Realignment {
-  kAffine,      ///< each new plane offset combines three old ones: O(k) (paper §2.1, eq. 1)
+  kAffine,      ///< each new plane offset combines three old offsets: O(k) (paper §2.1, eq. 1)
   kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 

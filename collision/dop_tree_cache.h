@@ -60,7 +60,7 @@ CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_p
 /// A tree, and a note about its file.
 struct LoadedTree {
   DopTree tree;
-  std::string note;  ///< one line that names the file; empty if the file was read, or was missing and has been written
+  std::string note;  ///< one line that names the file; empty if the file was read, or was missing and is now written
 };
 
 /// Reads the tree from the cache file of `mesh_path`. If that file is missing or unusable, builds the tree and writes

@@ -69,8 +69,8 @@ struct FrameReport {
   StageReport queue;
   /// In: objects that were added or moved. Out: enabled pairs of neighbors with at least one of these objects.
   StageReport neighbor_finding;
-  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs without a
-  /// separating plane, and pairs that met in the last frame. No plane is tried for the latter.
+  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs that met in
+  /// the last frame, without a test of planes, and tested pairs without a separating plane.
   StageReport separating_planes;
   /// In: the pairs that left the stage of separating planes. Out: the pairs among them that meet.
   StageReport exact;
@@ -109,8 +109,8 @@ struct FrameResult {
 
   std::vector<TrianglePair> all_triangle_pairs;  ///< with PairQuery::kTrianglePairs
   std::vector<ClosePair> all_close_pairs;        ///< with PairQuery::kClosePairs
-  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of the list that
-  /// the `PairQuery` fills, one of the two lists above. `ends` is empty with PairQuery::kVerdict.
+  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of the list above
+  /// that the `PairQuery` fills. `ends` is empty with PairQuery::kVerdict.
   std::vector<std::size_t> ends;
 
   FrameReport report;

@@ -52,7 +52,7 @@ struct QueryCounters {
 
 /// Receives the work of a query while the query runs, in the same thread. So a program can watch the progress of a
 /// query, or make the query wait. The unit is about a nanosecond of an ordinary processor. The work depends on the
-/// trees, their poses and the memory of coherent queries, not on the speed of the machine. It may differ a little
+/// trees, their poses and the memory of coherent queries, not on the speed of the machine. The work may differ a little
 /// between instruction sets, because conservative tests in single precision may keep different pairs.
 class WorkMeter {
  public:
@@ -109,8 +109,8 @@ class CoherentWorkspace {
 };
 
 /// A set of selected triangles of one tree. Further triangles may be half selected. Two triangles of two trees are a
-/// selected pair if one of them is selected, or if both are half selected. Immutable after construction, so safe to
-/// share between threads.
+/// selected pair if at least one of them is selected, or if both are half selected. Immutable after construction, so
+/// safe to share between threads.
 class TriangleSelection {
  public:
   /// Calls both functions once for each triangle, with the index of the triangle in the mesh. Without

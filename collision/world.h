@@ -55,8 +55,8 @@ struct WorldObject {
 struct WorldChanges {
   std::vector<std::uint32_t> removed;  ///< slots whose former object was removed
   std::vector<std::uint32_t> added;    ///< slots with a new object; also in `removed` if a former object was removed
-  std::vector<std::uint32_t> moved;    ///< slots whose object is not new and may have another pose
-  bool interest = false;               ///< `is_enabled` may have changed for pairs of objects that are not new
+  std::vector<std::uint32_t> moved;    ///< slots of earlier objects whose pose may have changed
+  bool interest = false;               ///< `is_enabled` may have changed for pairs of earlier objects
 };
 
 /// Thread-safety: any thread may edit the world or move objects at any time; one thread is the consumer. A "take" is a
@@ -81,8 +81,8 @@ class World {
   /// thread is still inside `move` for this object.
   ObjectId add(const ObjectDescription& object);
 
-  /// Removes an object and its disabled pairs. Throws std::invalid_argument for a stale id. The consumer's next take
-  /// releases the tree. If no take has seen the object, `remove` releases the tree.
+  /// Removes an object and forgets its disabled pairs. Throws std::invalid_argument for a stale id. The consumer's next
+  /// take releases the tree. If no take has seen the object, `remove` releases the tree.
   void remove(ObjectId id);
 
   /// The collision interest matrix. The pipeline compares enabled pairs of objects only. A pair is enabled if its two

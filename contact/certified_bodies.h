@@ -1,7 +1,7 @@
 #pragma once
 
-/// Rigid bodies that move together, such as the links of a chain, among bodies that stand still. Finds the contacts
-/// nearby, and proves that a motion touches nothing on its whole path.
+/// Rigid bodies that move together, such as the links of a chain, among bodies that stand still. `CertifiedBodies`
+/// finds near contacts, and proves that a motion touches nothing on its whole path.
 
 #include <cstddef>
 #include <memory>
@@ -62,12 +62,12 @@ class CertifiedBodies {
   /// are positive.
   void find_contacts(std::vector<Contact>& contacts);
 
-  /// Proves that `motion`, from the present poses, touches nothing. Returns false if there is no proof. `failures` are
-  /// then the contacts in the way, at the present poses; without `failures`, the motion is too long. A motion longer
+  /// Proves that `motion`, from the present poses, touches nothing. Returns false if there is no proof. `failures` then
+  /// has the contacts in the way, at the present poses. If `failures` is empty, the motion is too long. A motion longer
   /// than the reach of the last `look` costs another search. Moves nothing.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
-  /// As `certify`. Also proves that the motion keeps every pair of bodies at least its margin less `most_taken` apart
-  /// (metres; `most_taken` is less than `margin()`).
+  /// As `certify`. Also proves that the gap of every pair of bodies stays at least the margin of the pair minus
+  /// `most_taken` (metres, less than `margin()`).
   bool certify_taking(double most_taken, const BodiesMotion& motion, std::vector<Contact>& failures);
 
  private:

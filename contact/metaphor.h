@@ -12,8 +12,8 @@
 
 namespace glissade::contact {
 
-/// The connection between hand and part, as in §3 of the paper (docs/notation.md). The ghost is the pose of the part as
-/// the hand commands it, without contacts.
+/// The connection between hand and part, as in §3 of the paper (docs/notation.md). The ghost is the pose that the hand
+/// commands, regardless of contacts.
 enum class Metaphor : std::uint8_t {
   kForceFeedback,     ///< rigid grasp: the device pushes the hand back, and the part follows at a limited speed
   kRubberBand,        ///< a rubber band ties the part's reference point to the ghost; only contacts turn the part
@@ -29,7 +29,7 @@ struct MetaphorTraits {
   bool makes_up = true;       ///< the part makes up for prevented motion as soon as contacts allow it
 };
 
-/// In the order of the values of `Metaphor`.
+/// The traits of all metaphors, in the order of the values of `Metaphor`.
 inline constexpr std::array<MetaphorTraits, 4> kMetaphors{{{.name = "force-feedback", .limits_speed = true},
                                                            {.name = "rubber-band", .turns_part = false},
                                                            {.name = "rubber-band-spring"},

@@ -65,14 +65,14 @@ class MultiPartSliding {
   ~MultiPartSliding();
 
   /// As `Sliding::grasp` and `Sliding::release`; `part` is the number of the part, below `part_count`. A released part
-  /// stands still like an obstacle. Under force feedback, `grasp` does not move the target at once to the new ghost: if
-  /// the part was released, the target starts at the pose of the part; if the part was already held, the target stays
-  /// where it was. From there the target approaches the ghost by 0.1 mm a millisecond (half of kSlew_m, `spring.h`), so
+  /// stands still like an obstacle. Under force feedback, `grasp` does not move the target to the new ghost at once.
+  /// The target of a released part starts at the pose of the part. The target of a part that is already held stays
+  /// where it is. The target then approaches the ghost by 0.1 mm a millisecond (half of kSlew_m, `spring.h`), so
   /// neither part nor force jumps. `part` must not be scripted.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   /// As the other `grasp`. `p_Vref` (metres) replaces the part's own compliance point until the part is released or
-  /// grasped anew. The distance of the two points is at most kFarthestPoint radii. A part that is already held under
-  /// force feedback keeps the wrench of its coupling, so a new `p_Vref` moves the target.
+  /// grasped anew. `p_Vref` must be within kFarthestPoint radii of the part's own point. A part that is already held
+  /// under force feedback keeps the wrench of its coupling, so a new `p_Vref` moves the target.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
   void release(std::size_t part);
 
@@ -90,11 +90,11 @@ class MultiPartSliding {
   /// As `Sliding::advance`, for all parts at once. X_WG must have one pose for each part; poses of scripted parts are
   /// ignored. The scripts advance by `milliseconds` even while nothing else moves. A call that uses up its work
   /// (`SlidingRules::work_budget`) leaves the parts at the last certified poses and sets `SlidingResult::ended_early`.
-  /// If this call ends within a cycle, the next call first completes the cycle for the old ghosts. Then it goes on with
-  /// the new ghosts.
+  /// If this call ends within a cycle, the next call first completes the cycle for the old ghosts. Then the next call
+  /// goes on with the new ghosts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
   /// Whether the last call ended within a cycle. The next `advance` completes this cycle. Any other call that changes
-  /// the simulation abandons it.
+  /// the simulation abandons this cycle.
   bool is_within_cycle() const;
 
   std::size_t part_count() const;

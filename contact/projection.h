@@ -1,8 +1,8 @@
 #pragma once
 
 /// The constraints of contacts on the displacements of parts, and the quadratic programme at the heart of sliding.
-/// Among the displacements that half-space constraints allow, it finds the displacement nearest to a wanted one, in the
-/// metric of the coupling stiffness.
+/// Among the displacements that half-space constraints allow, the programme finds the displacement nearest to the
+/// wanted displacement, in the metric of the coupling stiffness.
 
 #include <array>
 #include <cstddef>
@@ -48,7 +48,7 @@ enum class ProjectionStatus : std::uint8_t { kSolved, kInfeasible, kIterationLim
 inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
 
 /// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each active row: the
-/// force along its normal that the row contributes to K (ξ − ξ*). `displacements` is valid only with kSolved.
+/// row's share of K (ξ − ξ*), a force along the row's normal. `displacements` is valid only with kSolved.
 template <std::size_t kParts>
 struct Projection {
   ProjectionStatus status = ProjectionStatus::kSolved;
@@ -63,8 +63,8 @@ struct Projection {
 using CoupledProjection = Projection<kMaxParts>;
 
 /// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
-/// (1983) in the whitened coordinates K^½ ξ, six for each part. The normals of the active rows are stored as an
-/// orthonormal basis and a triangular factor, so a change of the active set costs some hundred operations.
+/// (1983) in the whitened coordinates K^½ ξ, with six coordinates for each part. The normals of the active rows are
+/// stored as an orthonormal basis and a triangular factor, so a change of the active set costs some hundred operations.
 ///
 /// The work is bounded: at most 32 + 4 · rows changes of the active set, at a cost of O(rows) each. Deterministic. Not
 /// thread-safe.

@@ -29,10 +29,10 @@ struct SlidingOptions {
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
-  std::chrono::nanoseconds start{0};  ///< time of the script when the simulation begins
+  std::chrono::nanoseconds start{0};  ///< script time at which the simulation begins
   /// Stiffness against translation, k_t; the stiffness against rotation is k_t ρ², with ρ the radius of the part. The
-  /// default is a thousand times the default stiffness of a hand, so that the scripted part pushes other parts and is
-  /// hardly pushed by them. With the stiffness of a hand, the script acts as another hand.
+  /// default is a thousand times the default stiffness of a hand, so the scripted part pushes other parts and hardly
+  /// yields. With the stiffness of a hand, the script acts as another hand.
   double grip_N_per_m = 1e6;
   std::string name = "a moving part";  ///< for messages
 };

@@ -26,7 +26,7 @@ enum class ContactKind : std::uint8_t {
   kVertexEdge,
   kEdgeVertex,
   kVertexVertex,
-  kOverlap,  ///< the part overlapped the obstacle at its start and is moving out of it
+  kOverlap,  ///< the part overlapped the obstacle at the start and is leaving it
 };
 
 std::string_view name_of(ContactKind kind);
@@ -46,7 +46,7 @@ struct Contact {
   Eigen::Vector3d p_W;  ///< the contact point on the part, metres; for kOverlap the part's reference point
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
-  /// Numbers of the two features. The number of a face is that of its triangle. An edge has its number in
+  /// Numbers of the two features. A face has the number of its triangle. An edge has its number in
   /// `geometry::MeshTopology`, and a vertex its number in the mesh. −1 means that the features are unknown, as for
   /// overlaps, for contacts of triangle pairs whose certificate failed, and for contacts that the paper's method cannot
   /// classify.
@@ -60,9 +60,9 @@ struct Contact {
   /// With the paper's method, `margin` is the largest gap of a reported contact: 2 µm, i.e. 4 times the width at which
   /// a bisection ends. Contacts of the paper's method demand a gap of only half of this width.
   double margin = 0.0;
-  /// The contact is valid until the part has moved by this distance (metres) across n_W. Then the contact point may
-  /// have left one of the two features. Infinite if no rim of the features is near. An edge between coplanar triangles
-  /// is no rim.
+  /// The contact is valid until the part has moved by this distance (metres) across n_W. After a longer motion, the
+  /// contact point may have left one of the two features. Infinite if no rim of the features is near. An edge between
+  /// coplanar triangles is no rim.
   double range = std::numeric_limits<double>::infinity();
   /// Speed (m/s) of the other body's contact point along n_W in the last call; 0 for fixed obstacles.
   double approach = 0.0;
@@ -86,7 +86,7 @@ struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
-  /// The visible part before the last step. Only the path of the last step is thus known to a caller. Not set by the
+  /// The visible part before the last step. So a caller can reconstruct only the path of the last step. Not set by the
   /// paper's method.
   Eigen::Isometry3d X_WV_before_step = Eigen::Isometry3d::Identity();
   SlidingState state = SlidingState::kFree;
@@ -103,7 +103,7 @@ struct SlidingResult {
   int pushing = 0;  ///< number of contacts with a force
   /// The call ended because its work was used up. With more work, the part would have moved farther.
   bool ended_early = false;
-  int cycles = 0;  ///< each has one projection and one step; with the paper's method: number of bisections
+  int cycles = 0;  ///< number of cycles; with the paper's method: number of bisections
 };
 
 /// The wrench of a part's contacts on the hands that hold the part, about the reference point p_Vref, in world axes. At

@@ -60,8 +60,8 @@ enum class OverlapRule : std::uint8_t {
 /// Rules for all parts of a simulation.
 struct SlidingRules {
   /// Maximum number of cycles in one call of `Sliding::advance`, at least 1. Each cycle projects the wanted
-  /// displacement on the displacements that contacts allow, and takes one step. More cycles let the part follow corners
-  /// more closely. Fewer cycles make a call faster.
+  /// displacement on the displacements that contacts allow, and takes one step. With more cycles, the part follows
+  /// corners more closely. With fewer cycles, a call takes less time.
   int max_cycles = 10;
   /// The margin: the gap (metres) at which contacts stop a part. Default: 1e-4 of the part's radius, but at least 2 µm
   /// and at most 10 µm. Obstacles may have margins of their own.
@@ -73,11 +73,11 @@ struct SlidingRules {
   /// up to 1.4°. A search lasts two seconds at most.
   bool spiral_search = false;
   /// Searches for near triangles ahead of need in a separate thread, so that few calls wait for a search. Set this for
-  /// simulations in real time. The thread does not change a bit of poses and forces.
+  /// simulations in real time. Poses and forces are the same to the bit with and without the thread.
   bool has_search_thread = false;
-  /// A call also finds the contacts that the ghost may meet in so many milliseconds, at the ghost's speed in the last
-  /// call. A haptic thread then knows these contacts while it waits for the next contact set. The distance is limited
-  /// to 3 mm, or less where searches find very many pairs of triangles. Finite and not negative.
+  /// A call also finds the contacts that the ghost may meet in this time (milliseconds), at the ghost's speed in the
+  /// last call. A haptic thread then knows these contacts while it waits for the next contact set. The distance is
+  /// limited to 3 mm, or less where searches find very many pairs of triangles. Finite and not negative.
   double contacts_ahead_ms = 0.0;
   /// Number of pairs that a search may find. If a search finds more pairs, the radius of the next searches is halved,
   /// down to 0.2 mm, and steps are shorter. Answers then come sooner, and a fast part falls behind. At least 1. A
@@ -110,7 +110,7 @@ constexpr SlidingRules real_time_rules() {
 /// The poses of the ghost over time, for a part that no hand holds.
 struct PartScript {
   geometry::PoseTrajectory X_WB;
-  std::chrono::nanoseconds start{0};  ///< time of the script when the simulation begins
+  std::chrono::nanoseconds start{0};  ///< script time at which the simulation begins
 
   Eigen::Isometry3d pose_at(std::chrono::duration<double, std::milli> since_start) const noexcept {
     return X_WB.pose_at(start + std::chrono::round<std::chrono::nanoseconds>(since_start));

@@ -42,8 +42,9 @@ struct TrackedContact {
 ///    plus three margins.
 ///
 /// By case 2, a contact stays the same when its point passes to the next triangle or edge of a flat or smooth face. It
-/// becomes another contact when its point goes round a corner. If a new contact could continue several old contacts,
-/// old contacts that share a feature with it come first, then nearer contacts, then older contacts.
+/// becomes another contact when its point goes round a corner. If a new contact could continue several old contacts, it
+/// continues an old contact that shares a feature with it, if any. Among several such contacts, it continues the
+/// nearest. Among equally near contacts, it continues the oldest.
 class ContactTracker {
  public:
   /// `margin` (metres) is the margin of the simulation (`SlidingSimulation::margin`), or the largest of all margins if

@@ -51,7 +51,7 @@ class MeshTopology {
   /// other meshes instead. A rim is a run of edges that are not flat. It ends at vertices where it bends or meets other
   /// rims. A vertex is inside a straight rim if exactly two of its edges are not flat, these two edges continue each
   /// other without a bend, and the vertex lies within 0.1 µm of the chord between the ends of the rim. The edges and
-  /// the end vertices of the rim stop other meshes instead.
+  /// end vertices of the rim stop other meshes instead.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
   /// Whether a triangle owns any feature. A triangle without a feature stops other meshes with its face only. A face
   /// stops only vertices.

@@ -45,7 +45,7 @@ TriangleMesh merge(std::span<const TriangleMesh> meshes);
 TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_AB);
 
 /// The mesh with the orientation of each triangle reversed with probability one half. Equal seeds give equal meshes.
-/// For tests that nothing in this library depends on the orientation of triangles.
+/// Serves tests that nothing in this library depends on the orientation of triangles.
 TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
 /// The mesh with vertices at identical positions merged; 0 and -0 count as identical. Keeps all triangles, including

@@ -17,7 +17,7 @@ namespace glissade::realtime {
 class LatencyHistogram {
  public:
   /// A reported quantile is never below the exact quantile. A reported quantile below 18 minutes exceeds the exact
-  /// quantile by at most this fraction of the exact quantile.
+  /// quantile by at most the fraction kRelativeError.
   static constexpr double kRelativeError = 1.0 / 64.0;
 
   /// Adds one duration. A negative duration counts as 0. All durations of 2^40 ns or more share the last bucket, so
@@ -30,7 +30,7 @@ class LatencyHistogram {
   std::uint64_t count() const noexcept { return count_; }
 
   /// Number of recorded durations of at most `duration`. Durations up to (1 + kRelativeError) × `duration` may also
-  /// count. The difference of the results of two calls is a bar of a drawn histogram.
+  /// count. The difference of two results is the height of a bar in a drawn histogram.
   std::uint64_t count_up_to(std::chrono::nanoseconds duration) const noexcept;
 
   /// The largest recorded duration, exact; 0 when nothing was recorded.

@@ -46,7 +46,8 @@ class PeriodicSchedule {
 
   std::chrono::nanoseconds deadline() const noexcept { return deadline_; }
 
-  /// Adds a tick that ran from `started` to `ended` to `statistics`, and advances to the next deadline by the rule.
+  /// Adds a tick that ran from `started` to `ended` to `statistics`, and advances to the next deadline by the
+  /// scheduling rule.
   void finish_tick(std::chrono::nanoseconds started, std::chrono::nanoseconds ended,
                    PeriodicStatistics& statistics) noexcept;
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A thread that calls a tick function at a fixed rate by `run_periodic`. Also functions that request real-time
+/// A thread that calls a tick function at a fixed rate by `run_periodic`. Also has functions that request real-time
 /// priority and locked memory from the system.
 
 #include <atomic>
@@ -16,7 +16,7 @@
 
 namespace glissade::realtime {
 
-/// SCHED_FIFO priorities of the threads between the states and the forces of a device.
+/// SCHED_FIFO priorities of the threads on the path from the states of a device to its forces.
 inline constexpr int kHapticPriority = 80;
 inline constexpr int kLinkPriority = 75;        ///< receives states and sends commands, or vice versa
 inline constexpr int kSimulationPriority = 70;  ///< computes contacts
