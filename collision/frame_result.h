@@ -32,7 +32,7 @@ struct PipelineOptions {
   double greatest_distance = 0.0;
   /// Number of threads that work on a frame, including the calling thread. 0: one thread for each processor.
   int threads = 0;
-  /// Receives the work of the exact queries; null: no meter. Allowed only with one thread. Must outlive the pipeline.
+  /// Receives the work of the exact queries; null: no meter. Ignored with several threads. Must outlive the pipeline.
   WorkMeter* meter = nullptr;
 };
 
