@@ -1,8 +1,8 @@
 #pragma once
 
-/// What the haptic thread (the 1 kHz loop that computes the forces) and the simulation pass to each other, as plain
-/// data of a fixed size: the ghosts of all parts and the postures of all hands one way; the visible poses and the
-/// constraints of the contacts near them the other way.
+/// The data that the haptic thread (the 1 kHz loop that computes the forces) and the simulation exchange, as plain data
+/// of fixed size. The haptic thread passes on the ghosts of all parts and the postures of all hands. The simulation
+/// answers with the visible poses and the constraints of nearby contacts.
 
 #include <array>
 #include <chrono>
@@ -22,37 +22,37 @@
 
 namespace glissade::haptics {
 
-/// The force of a set is full up to kFullForce after the ghost pose that the set answers, and zero from kForceless on.
-/// In between it fades smoothly.
+/// Ages of a contact set, counted from the ghost pose that the set answers. The force of the set is full up to
+/// kFullForce, then fades smoothly, and is zero from kForceless on.
 inline constexpr std::chrono::milliseconds kFullForce{20};
 inline constexpr std::chrono::milliseconds kForceless{100};
 
-/// The constraint of a contact, and how far it holds. The other side is an obstacle, unless another hand leads it.
+/// The constraint of a contact and its range. The other body is an obstacle or a part that another hand leads.
 struct ContactRow : contact::CoupledRow {
   double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
-  double approach = 0.0;  ///< m/s: `Contact::approach`, by which the bound grows with the age of the set
-  bool pushes = false;    ///< it has a positive force
-  /// Friction on the part divided by the normal force, in world axes; perpendicular to the normal, and no longer than
-  /// the coefficient of friction. Zero for contacts that do not push.
+  double approach = 0.0;  ///< m/s: `Contact::approach`; the bound grows at this rate with the age of the set
+  bool pushes = false;    ///< the contact has a positive force
+  /// Friction on the part divided by the normal force, in world axes. It is perpendicular to the normal, and its norm
+  /// is at most the coefficient of friction. Zero for contacts that do not push.
   Eigen::Vector3d friction_ratio_W = Eigen::Vector3d::Zero();
 };
 
-/// Maximum number of rows of one part in a contact set. Without friction, at most six contacts of a single part
-/// push at once; the other rows are the nearest contacts, which may push soon. Finely tessellated faces that lie flush
-/// may have more than 64 contacts; the set then omits the farthest contacts.
+/// Maximum number of rows of one part in a contact set. Without friction, at most six contacts of a single part push at
+/// once. The other rows are the nearest contacts, which may push soon. Flush faces with a fine tessellation may have
+/// more than 64 contacts; the set then omits the farthest contacts.
 inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The simulation's answer for one part.
 struct PartAnswer {
-  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();        ///< reference point of this hold: the compliance point
-  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< reference point while this hold lasts: the compliance point
+  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();          ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
-  /// The target in the frame of the ghost. Not the identity where the hand holds the part at an offset, or where the
-  /// metaphor wants another pose than the ghost's.
+  /// The target in the frame of the ghost. It differs from the identity if the hand holds the part at an offset, or if
+  /// the metaphor wants another pose than the ghost's.
   Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
-  /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a gap smaller than this. The set
-  /// has a row for each contact found, except for the `dropped` ones.
+  /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a smaller gap than `reach`. The set
+  /// has a row for each contact found, except for the `dropped` contacts.
   double reach = 0.0;
   contact::SlidingState state = contact::SlidingState::kFree;
   std::int32_t pushing = 0;  ///< number of contacts that push, i.e. have a positive force
@@ -60,22 +60,22 @@ struct PartAnswer {
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
 };
 
-/// A contact of a segment of a hand with fingers. Where its joints turn by d (rad, one for each joint), the gap grows
-/// by rates · d, to first order.
+/// A contact of a segment of a hand with fingers. If the joints of the hand turn by d (rad, one for each joint), the
+/// gap grows by rates · d, to first order.
 struct FingerRow {
   hands::JointValues rates{};                     ///< m/rad
   double gap = 0.0;                               ///< metres at the visible hand, less the margin; at least 0
-  std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: something else
-  Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from there to the segment
-  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the point of the segment
+  std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: another body
+  Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from the touched body to the segment
+  Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the contact point of the segment
 };
 
 /// Maximum number of rows of one hand in a contact set. On a finely tessellated object a hand may have more contacts.
-/// The set then has the contact that pushes each joint back the farthest, so that no torque depends on those it omits,
-/// the deepest contact of each segment with each object, and the deepest of the others.
+/// The set then has these contacts: for each joint, the contact that pushes it back the farthest, so that no torque
+/// depends on omitted contacts; the deepest contact of each segment with each object; and the deepest of the others.
 inline constexpr std::size_t kMaxFingerRows = 32;
 
-/// The simulation's answer for one hand with fingers: the visible hand, and what it is to hold.
+/// The simulation's answer for one hand with fingers: the visible hand, and the part that it is to hold.
 struct HandAnswer {
   hands::VisibleHand visible;
   std::int32_t part = -1;      ///< number of the part that the hand is to hold; −1: none
@@ -86,31 +86,31 @@ struct HandAnswer {
   std::span<const FingerRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };
 
-/// The simulation's answer to one pose of each ghost, i.e. to a pose that the part would have if nothing were in the
-/// way. Only parts that hands lead have rows.
+/// The simulation's answer to one pose of each ghost. The ghost is the pose that the part would have if nothing were in
+/// the way. Only parts that hands lead have rows.
 struct ContactSet {
   std::int64_t sequence = 0;         ///< 1, 2, 3, … in the order of the sets; 0: no set yet
   std::chrono::nanoseconds time{0};  ///< time of the ghost poses that the set answers
   std::int32_t part_count = 1;
   std::array<PartAnswer, contact::kMaxParts> parts{};
   std::int32_t row_count = 0;  ///< rows in use
-  /// Part by part; of each, first the pushing contacts, then the others, the nearest first.
+  /// Part by part. The rows of a part begin with the pushing contacts; the others follow, the nearest first.
   std::array<ContactRow, contact::kMaxParts * kMaxContactRows> row_array{};
-  std::array<HandAnswer, hands::kMaxHands> hands{};  ///< of those with fingers
-  // To display. A part's contacts with an object that lie in one plane are a patch.
+  std::array<HandAnswer, hands::kMaxHands> hands{};  ///< only hands with fingers
+  // For display.
   std::int32_t patch_count = 0;
-  std::int32_t patches_left_out = 0;  ///< beyond kHapticPatches
+  std::int32_t patches_left_out = 0;  ///< number of patches beyond kHapticPatches
   std::array<devices::HapticPatch, devices::kHapticPatches> patches{};
 
   std::span<const ContactRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };
 
-/// One part as the haptic thread knows it: what the simulation is to answer. The counts tell the simulation every grasp
-/// and release, although it only sees the newest poses: nothing moves in between.
+/// One part as the haptic thread knows it, for the simulation to answer. The simulation only sees the newest poses. The
+/// two counts show it every grasp and release in between.
 struct GhostOfPart {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   bool is_held = false;
-  std::int64_t hold = 0;     ///< increases whenever the ghost is set anew: when a hand takes hold or lets go
+  std::int64_t hold = 0;     ///< increases whenever a hand takes hold or lets go, which sets the ghost anew
   std::int64_t release = 0;  ///< value of `hold` when the last hand let go
 };
 
@@ -119,7 +119,7 @@ struct GhostOfHand {
   bool is_tracked = false;  ///< the newest pose and angles came less than 0.1 s ago
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   hands::JointValues angles{};  ///< rad
-  std::int32_t part = -1;       ///< number of the part that it holds; −1: none
+  std::int32_t part = -1;       ///< number of the part that the hand holds; −1: none
 };
 
 /// All parts and hands at one time of the haptic clock.
@@ -129,7 +129,7 @@ struct Ghosts {
   std::array<GhostOfHand, hands::kMaxHands> hands{};  ///< of those with fingers
 };
 
-/// The state as viewers get it.
+/// The state for viewers.
 devices::PartState part_state_of(contact::SlidingState state) noexcept;
 
 }  // namespace glissade::haptics

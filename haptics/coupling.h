@@ -15,7 +15,7 @@ struct DeviceDescriptor;
 
 namespace glissade::haptics {
 
-/// The usual period of the haptic loop, and the bounds of those that can be chosen: 5 kHz and 500 Hz.
+/// The default period of the haptic loop, and the bounds of the period, for rates of 5 kHz and 500 Hz.
 inline constexpr std::chrono::milliseconds kTickPeriod{1};
 inline constexpr std::chrono::microseconds kShortestTickPeriod{200};
 inline constexpr std::chrono::milliseconds kLongestTickPeriod{2};
@@ -37,34 +37,35 @@ struct Coupling {
 
 /// The greatest stiffness with which a spring on the device is passive, i.e. never gives back more energy than the hand
 /// put in: b / (T/2 + t_d), with the device's damping b, the period T of the loop and the delay t_d from measurement to
-/// force; against translation also at most twice the Coulomb friction by the resolution. A damping that the descriptor
-/// does not tell is taken as the least with which the maker's largest stiffness is passive without a link. Sources:
-/// Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott and Okamura, Effects of position
-/// quantization and sampling rate on virtual-wall passivity, 2005.
+/// force. The stiffness against translation is also at most twice the Coulomb friction divided by the resolution. If
+/// the descriptor does not tell the damping, b is the smallest damping with which the maker's largest stiffness is
+/// passive without a link. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott
+/// and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept;
 
-/// The coupling that a device can render without shaking in a loop of this period, at least that of the device. `delay`
-/// is the delay of the link, which adds to the device's own. The stiffness is `wanted`, lowered to the limits of the
-/// descriptor and to `passive_stiffness`. The damping is 5 ms times this stiffness, but at most the descriptor's limit,
-/// and at most what the device's own damping leaves: b − K (T/2 + t_d). Throws std::invalid_argument, naming the
-/// device, when the device cannot render any stiffness against translation or rotation.
+/// The coupling that a device can render without shaking. The loop has this period, or that of the device if it is
+/// longer. `delay` is the delay of the link, which adds to the device's own delay. The stiffness is `wanted`, lowered
+/// to the limits of the descriptor and to `passive_stiffness`. The damping is 5 ms times this stiffness, but at most
+/// the descriptor's limit, and at most b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument,
+/// naming the device, when the device cannot render any stiffness against translation or rotation.
 Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                       std::chrono::nanoseconds period = kTickPeriod,
                       std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
 
-/// The same without the check, for a part whose reference point is `lever` (metres) from the device's. There the spring
-/// against translation also turns the device, like a spring of K l² against rotation, for which the device's rotational
-/// damping has to suffice, too; its `max_rotational_stiffness` does not count for that. Real-time safe.
+/// The coupling of `coupling_for` without its check, for a part whose reference point is `lever` l (metres) from that
+/// of the device. The spring against translation then also turns the device, like a spring of K l² against rotation.
+/// The device's rotational damping must keep this spring passive, too; `max_rotational_stiffness` does not limit it.
+/// Real-time safe.
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever = 0.0) noexcept;
 
 /// The damper's wrench on the hand, for the velocity v_W of the ghost's reference point (m/s) and the angular velocity
-/// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So it does not
-/// brake a translation perpendicular to the contact normals, and obstacles do not resist such a translation either. The
-/// damper's force never exceeds that of the contacts, nor its torque theirs. So the damper sets in smoothly at a new
-/// contact, and both together never pull the hand towards a contact that the hand leaves.
+/// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So it does not brake
+/// a translation perpendicular to the contact normals. The damper's force never exceeds the force of the contacts, and
+/// its torque never exceeds their torque. So the damper sets in smoothly at a new contact, and contacts and damper
+/// together never pull the hand towards a contact that the hand leaves.
 contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
                               const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the fingers in a glove feel: at each joint a spring that holds it where an object stops the visible hand.
+/// The torques on the fingers in a glove. A spring holds each joint where an object stops the visible hand.
 
 #include <array>
 #include <chrono>
@@ -20,7 +20,7 @@ struct HandModel;
 
 namespace glissade::haptics {
 
-/// A hinge between the hand root and the palm: frames P, the one before, and J, which turns by the angle about
+/// A hinge between the hand root and the palm. Frames: P of the previous hinge or the root; J, which turns about
 /// `axis_J`.
 struct WristJoint {
   std::size_t angle = 0;  ///< number of the glove's joint
@@ -32,48 +32,47 @@ struct WristJoint {
 struct FingerHand {
   hands::JointValues lower{};  ///< range of each joint, rad
   hands::JointValues upper{};
-  std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the frame of the last one
+  std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the last frame
 };
 
-/// That of a hand of the simulation.
+/// The `FingerHand` of a hand of the simulation.
 FingerHand finger_hand(const grasping::HandModel& hand);
 
-/// The stiffness (Nm/rad) of the spring at each joint of a glove. It reaches `max_joint_torque` 0.8 degrees deep, so
-/// that a finger which the wearer presses with less stops within this angle. Where that is more than the glove can
-/// render passively, i.e. without ever giving back more energy than the finger put in, it is b / (T/2 + t_d), with the
-/// joint's damping b, the period T of the loop, at least that of the device, and the delay t_d of device and link
-/// (`passive_stiffness`). A glove that does not tell its `joint_damping` is taken to have just as
-/// much as the full stiffness needs without a link. A torque that may change by r Nm/s (`devices::joint_torque_rate`)
-/// lags behind a finger that taps quickly, and would feed its rattling: so the stiffness is at most r / (6 rad/s).
-/// Where the angles are measured in steps, nothing damps a finger within a step: so it is also at most twice the
-/// joint's Coulomb friction by the step. Real-time safe.
+/// The stiffness (Nm/rad) of the spring at each joint of a glove. The spring reaches `max_joint_torque` 0.8 degrees
+/// deep, so that a finger which the wearer presses with less stops within this angle. The stiffness has three upper
+/// bounds. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of the loop (at
+/// least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not tell
+/// its `joint_damping`, b is what the full stiffness needs without a link. The second is r / (6 rad/s), because a
+/// torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`) lags behind a quickly tapping finger and would
+/// feed its rattling. The third is twice the joint's Coulomb friction divided by the step of the measured angles,
+/// because nothing damps a finger within a step. Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 
-/// How far (rad) the joints whose lag closes the gap of a contact have to go back to leave it, by the least squares,
-/// and none farther than to the visible hand: raises `depths` to it. `lags`, rad, are from the visible hand to the
-/// glove. The torques of the depths of one contact are the gradient of a convex energy in the closing joints, and no
-/// stiffer than each joint alone: joints that share a contact do not add up. (Less where an arm is shorter than 2 mm.
-/// Of several contacts a joint takes the greatest depth, so n joints may be stiffer by (1 + √n) / 2.) Real-time safe:
+/// Computes by least squares how far (rad) the joints whose lag closes the gap of a contact must go back to leave it,
+/// at most to the visible hand. Raises `depths` to these values. `lags` (rad) are from the visible hand to the glove.
+/// The torques of the depths of one contact are the gradient of a convex energy in the closing joints, and no stiffer
+/// than each joint alone: joints that share a contact do not add up. They are softer if an arm is shorter than 2 mm. If
+/// a joint has several contacts, the greatest depth counts, so n joints may be stiffer by (1 + √n) / 2. Real-time safe:
 /// O(joints²) at worst.
 void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
-/// Torques for the joints of a glove whose hand clasps something. The joints whose own motion, from the visible hand's
-/// posture to the glove's, goes deeper into a contact are pushed back by springs, as far as they together have to go to
-/// leave it (`deepen`). All other joints get exactly zero; so do all while nothing touches.
+/// Torques for the joints of a glove whose hand clasps something. Springs push back each joint whose motion from the
+/// visible hand's posture to the glove's goes deeper into a contact, as far as `deepen` says. All other joints get
+/// exactly zero torque.
 ///
-/// The torque is continuous in the posture of the glove, and comes and goes with the depth. Contacts that push less
-/// than 2 mm beside a joint's axis count less, down to nothing. The wearer's fingers rest where their muscles balance
-/// the spring: a joint that presses with τ Nm, at most the largest torque, τ / stiffness deeper than the visible hand.
+/// The torque is continuous in the posture of the glove. Contacts that push at an arm of less than 2 mm about a joint's
+/// axis count less, down to zero. A wearer's joint that presses with τ Nm, at most the largest torque, rests τ /
+/// stiffness deeper than the visible hand.
 ///
-/// There is no damper: gloves measure angles, often in coarse steps, and no rates. What the spring may do without one
-/// is in its stiffness.
+/// There is no damper, because gloves measure angles, often in coarse steps, and no rates. The stiffness allows for
+/// this.
 ///
 /// Not thread-safe. Real-time safe: no allocation, no lock, no system call.
 class FingerForces {
  public:
   /// Joints that the device does not have get no torque. Throws std::invalid_argument as `devices::validate` and
-  /// `validate_tick_period` do, and for limits of the hand that are no numbers or the wrong way round.
+  /// `validate_tick_period` do, and for limits of the hand that are not finite or whose lower one exceeds the upper.
   FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                std::chrono::nanoseconds period = kTickPeriod);
 
@@ -85,9 +84,9 @@ class FingerForces {
   /// Nm, of the device.
   double max_torque() const noexcept { return device_.max_joint_torque; }
 
-  /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full where the
-  /// answer is up to kFullForce old, and zero from kForceless on. Zero for angles that are not finite. Cost: O(rows ·
-  /// joints), 0.05 µs a row.
+  /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full up to an
+  /// age of the answer of kFullForce, and zero from kForceless on. They are zero for angles that are not finite. Cost:
+  /// O(rows · joints), 0.05 µs a row.
   const hands::JointValues& update(const hands::JointValues& angles, const HandAnswer& hand,
                                    std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
 
@@ -101,22 +100,22 @@ class FingerForces {
   hands::JointValues torques_{};
 };
 
-/// What `FingerForces` has to know of a hand of a simulation. Allocates.
+/// The input of `FingerForces` from a hand of a simulation. Allocates.
 HandAnswer answer_of(const grasping::GraspSimulation& simulation, std::size_t hand);
 
 /// Thumb, index, middle, ring and little finger.
 inline constexpr std::size_t kFingers = 5;
 
-/// How hard the tips of a hand's fingers press, for a wearer whose fingers are at their targets. The springs of the
-/// glove give the torques of the joints. The forces of the contacts are those, none of which pulls, whose torques come
-/// nearest to them. The load of a held part is not in them. Not thread-safe.
+/// The forces of a hand's fingertips, for a wearer whose fingers are at their targets. The springs of the glove give
+/// the joint torques. The contact forces are the non-negative ones whose torques come nearest to these joint torques.
+/// They do not include the load of a held part. Not thread-safe.
 class FingertipForces {
  public:
   /// Throws as `FingerForces` does.
   FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}
 
-  /// N, for each finger the sum of the contacts of its last segment. `targets` are the angles (rad) to which the wearer
-  /// closes the hand. Cost: O(rows · joints), a hundred times.
+  /// N: for each finger, the sum of the contact forces on its last segment. `targets` are the angles (rad) to which the
+  /// wearer closes the hand. Cost: O(rows · joints), a hundred times.
   std::array<double, kFingers> update(const hands::JointValues& targets, const HandAnswer& hand);
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The system in real time, with two threads. The haptic thread runs at 1 kHz or another rate: from the states of all
-/// devices and the newest contact set, it computes the forces and the poses of the ghosts, i.e. the parts' poses if
-/// nothing were in the way. The simulation thread answers the newest poses of the ghosts with a contact set, once per
+/// The system in real time, with two threads. The haptic thread runs at 1 kHz or another rate. It computes the forces
+/// and the poses of the ghosts (the parts' poses if nothing were in the way) from the states of all devices and the
+/// newest contact set. The simulation thread answers the newest poses of the ghosts with a contact set, once per
 /// millisecond if the collision queries are fast enough. Neither thread waits for the other.
 
 #include <array>
@@ -39,14 +39,15 @@ struct HapticServerOptions {
   /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on it: all rates
   /// of change are per second.
   std::chrono::nanoseconds period = kTickPeriod;
-  /// Number of counted ticks of the haptic thread after which the force fades and that thread ends by itself; with 0 it
-  /// runs until `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
+  /// Number of counted ticks after which the force fades and the haptic thread ends. With 0 the thread runs until
+  /// `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
-  /// Time before each deadline for which the haptic thread reads the clock instead of sleeping, at most half of the
-  /// period: its ticks start on time, and it occupies a processor so much longer.
+  /// Time before each deadline for which the haptic thread polls the clock instead of sleeping, at most half of the
+  /// period. Polling makes ticks start on time, and occupies a processor for this time.
   std::chrono::nanoseconds spin{0};
-  /// Receives the state of each counted tick; may be empty. Called by the haptic thread; must be real-time safe. After
-  /// an exception from it the force fades, as after one of the simulation, and it is called no more.
+  /// Receives the state of each counted tick; may be empty. The haptic thread calls it, so it must be real-time safe.
+  /// After an exception from `sink` the force fades, as after an exception of the simulation, and `sink` is not called
+  /// again.
   std::function<void(const devices::HapticState&)> sink{};
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
   /// Null: the steady clock of the system. Several threads use it; must outlive the server.
@@ -58,30 +59,30 @@ struct HapticServerStatistics {
   realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, counted or not
   realtime::LatencyHistogram simulation;       ///< duration of each call of the simulation
   realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghosts that the set answers
-  std::int64_t unsolved_ticks = 0;             ///< counted ticks in which contacts of any hand had no solution
+  std::int64_t unsolved_ticks = 0;             ///< counted ticks in which the contacts of any hand had no solution
   realtime::ThreadScheduling scheduling;       ///< of the haptic thread
   std::int64_t page_faults = 0;                ///< of the haptic thread, from its first counted tick to its end
 };
 
-/// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. Between construction and
-/// the end of `stop`, the devices and `simulation` belong to the server's threads.
+/// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. From construction to the
+/// end of `stop`, only the server's threads may use the devices and `simulation`.
 class HapticServer {
  public:
-  /// Starts both threads. What is passed must outlive the server. A hand grasps its part when the first state of its
-  /// device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and are
-  /// obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of the
-  /// simulation, which should have `contact::real_time_rules`. Throws std::invalid_argument for a null device, a
-  /// period out of bounds and fewer devices than hands of the simulation, and as the constructors of `HapticKernel` and
-  /// `realtime::PeriodicThread` do.
+  /// Starts both threads. Devices and simulation must outlive the server. A hand grasps its part when the first state
+  /// of its device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and
+  /// are obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of
+  /// the simulation. The simulation should have `contact::real_time_rules`. Throws std::invalid_argument for a null
+  /// device, a period out of bounds and fewer devices than hands of the simulation, and as the constructors of
+  /// `HapticKernel` and `realtime::PeriodicThread` do.
   HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands, grasping::GraspSimulation& simulation,
                HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;
   HapticServer& operator=(const HapticServer&) = delete;
   ~HapticServer();
 
-  /// As `HapticKernel::grasp` and `HapticKernel::release`, in the next tick. Returns false, and does nothing, as those
-  /// do, and if 256 calls wait for the haptic thread; then the caller may try again, so none is lost. Wait-free. One
-  /// thread. Hands with fingers hold what the simulation decides: `release` does nothing to them.
+  /// Calls `HapticKernel::grasp` or `HapticKernel::release` in the next tick. Returns false and does nothing if the
+  /// kernel refuses, or if 256 calls wait for the haptic thread; the caller may then try again. Wait-free. Only one
+  /// thread may call these functions. `release` does not affect hands with fingers, for which the simulation decides.
   bool grasp(std::size_t hand, std::size_t part) noexcept {
     return kernel_.can_grasp(hand, part) &&
            requests_.push({static_cast<std::int32_t>(hand), static_cast<std::int32_t>(part)});
@@ -90,14 +91,14 @@ class HapticServer {
     return hand < devices_.size() && requests_.push({static_cast<std::int32_t>(hand), -1});
   }
 
-  /// Whether the server has reached `HapticServerOptions::ticks`, and no device has a force any more. Wait-free, any
+  /// Whether the server has reached `HapticServerOptions::ticks` and the forces of all devices are zero. Wait-free, any
   /// thread.
   bool is_done() const noexcept { return done_.load(std::memory_order_acquire); }
 
   /// Whether the simulation or the sink threw an exception. Then the force fades and stays at zero. Wait-free, any
   /// thread.
   bool has_failed() const noexcept { return failed_.load(std::memory_order_acquire); }
-  /// The message of the exception, of which at most 255 bytes are kept. Valid once `has_failed` returns true.
+  /// The first 255 bytes of the exception's message. Valid once `has_failed` returns true.
   std::string failure() const { return failure_.data(); }
 
   /// The force fades and stays at zero; the loop goes on. Wait-free, any thread.
@@ -106,17 +107,16 @@ class HapticServer {
   /// Number of counted ticks so far. Wait-free, any thread.
   std::int64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
 
-  /// Number of ticks of the haptic thread so far, counted or not, that began a period or more late. Wait-free, any
-  /// thread.
+  /// Number of all ticks so far, counted or not, that began a period or more late. Wait-free, any thread.
   std::int64_t late_ticks() const noexcept { return late_ticks_.load(std::memory_order_relaxed); }
-  /// What the system granted to the haptic thread. Any thread.
+  /// The scheduling that the system granted to the haptic thread. Any thread.
   const realtime::ThreadScheduling& scheduling() const noexcept { return haptic_thread_->scheduling(); }
 
-  /// Blocks for `longest`, or until the server is done or has failed; then stops. Throws std::runtime_error with the
-  /// message of `failure` if it has failed.
+  /// Blocks for `longest`, or until the server is done or has failed. Then stops the server. Throws std::runtime_error
+  /// with the message of `failure` if it has failed.
   void run_for(std::chrono::nanoseconds longest);
-  /// The same without a limit, for a server with `HapticServerOptions::ticks`, of which a device without states counts
-  /// none. Throws std::invalid_argument for a server that runs until `stop`.
+  /// As `run_for`, without a time limit. The server must have `HapticServerOptions::ticks`; a server with 0 ticks
+  /// throws std::invalid_argument. Without states of any device, this function does not return.
   void wait();
 
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The whole system on a simulated clock and in one thread: gloves, haptic kernel and simulation take turns, once per
-/// tick. The same inputs give the same bits. Also the repetition of a recorded run: to the bit.
+/// tick. The same inputs give bit-identical outputs. `Replay` repeats a recorded run bit by bit.
 
 #include <chrono>
 #include <cstddef>
@@ -30,7 +30,7 @@ class AnswersAhead;
 
 struct OfflineRunOptions {
   std::chrono::nanoseconds period = kTickPeriod;
-  /// Called before each tick, with its number, from 1 on: for grasps and releases.
+  /// Called before each tick, to add grasps and releases. `tick` counts from 1.
   std::function<void(std::int64_t tick, HoldRequests& requests)> before_tick{};
   LoopObserver* observer = nullptr;  ///< null: none
 };
@@ -43,40 +43,39 @@ void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, 
                  std::int64_t ticks, const std::function<void(const devices::HapticState&)>& sink,
                  const OfflineRunOptions& options = {});
 
-/// Repeats a recorded run: ticks and answers consume what they consumed then, and must produce the same bytes. The
-/// simulation works in a thread of its own, ahead of the ticks: it needs nothing but the recorded ghosts. Not
-/// thread-safe.
+/// Repeats a recorded run: ticks and answers consume the recorded inputs, and must produce the recorded bytes. The
+/// simulation needs only the recorded ghosts, so it works ahead of the ticks in a thread of its own. Not thread-safe.
 class Replay {
  public:
-  /// A loop as the recorded one. Scene, rules, devices and parts of `hands`, period and `head` must be those of the
-  /// recording; the fingers of hands are those of the simulation. The simulation must outlive this object, and must not
-  /// be used by others. Throws as the constructor of `HapticKernel` does.
+  /// Scene, rules, devices and parts of `hands`, period and `head` must be those of the recording. The fingers of
+  /// `hands` must be those of the simulation. The simulation must outlive this object, and no one else may use it.
+  /// Throws as the constructor of `HapticKernel` does.
   Replay(grasping::GraspSimulation& simulation, std::vector<KernelHand> hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();
   Replay(const Replay&) = delete;
   Replay& operator=(const Replay&) = delete;
 
-  /// Takes the next event of the recording. Repeats the tick of an event of HAPTIC_TICK, and the answer of one of
-  /// CONTACT_SET; compares the others on channels of a recording with what the last tick produced. Ignores other
-  /// channels. Returns false if the recording cannot be repeated up to here: `difference` says why. The simulation
-  /// computes the answers in another thread. So `take` may return true for an event that differs from the recording. A
-  /// later call of `take` or `settle` then returns false. Rethrows exceptions of the simulation.
+  /// Takes the next event of the recording. Repeats the tick of a HAPTIC_TICK event and the answer of a CONTACT_SET
+  /// event. Compares events on the other channels of a recording with the results of the last tick. Ignores all other
+  /// channels. Returns false if the run differs from the recording up to here: `difference` says why. Because the
+  /// simulation computes the answers in another thread, `take` may return true for an event that differs. A later call
+  /// of `take` or `settle` then returns false. Rethrows exceptions of the simulation.
   bool take(devices::LogEvent event);
 
-  /// Repeats all that was taken. Returns false, as `take` does, if something differs.
+  /// Repeats all events taken so far. Returns false, as `take` does, if something differs.
   bool settle();
 
-  /// To be called after the last event: settles. Returns false, as `take` does, also if the recording ends within a
-  /// tick or has none.
+  /// Call it after the last event. Settles, and returns false as `take` does. Also returns false if the recording ends
+  /// within a tick or has no tick.
   bool finish();
 
-  /// Ticks and answers that were repeated so far: all before the difference, once `settle` was called.
+  /// Numbers of ticks and answers repeated so far. After `settle`, all before the difference are repeated.
   std::int64_t ticks() const noexcept { return ticks_; }
   std::int64_t answers() const noexcept { return answers_; }
   std::chrono::nanoseconds duration() const noexcept { return last_ - first_; }  ///< recorded time
 
-  /// A sentence that names the tick or the contact set, and what differs; empty while there is no difference.
+  /// A sentence that names the tick or the contact set and the difference; empty while there is no difference.
   const std::string& difference() const noexcept { return difference_; }
 
  private:

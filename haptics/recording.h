@@ -1,7 +1,7 @@
 #pragma once
 
-/// What the haptic loop consumed and produced, tick by tick and answer by answer: for recordings, from which a run can
-/// be repeated to the bit (`Replay` in `offline_run.h`).
+/// Records of the inputs and results of the haptic loop, for each tick and each answer. `Replay` in `offline_run.h`
+/// repeats a run from a recording bit by bit.
 
 #include <array>
 #include <chrono>
@@ -27,18 +27,19 @@
 
 namespace glissade::haptics {
 
-/// A hand takes hold of a part, or lets go.
+/// A request that a hand takes hold of a part or lets go.
 struct HoldRequest {
   std::int32_t hand = 0;
-  std::int32_t part = -1;  ///< −1: it lets go
+  std::int32_t part = -1;  ///< −1: the hand lets go
 };
 
-/// The requests of one tick, in their order.
+/// The requests of one tick, in order.
 class HoldRequests {
  public:
   static constexpr std::size_t kMost = 16;
 
-  /// As `HapticKernel::grasp` and `HapticKernel::release`. Return false, and do nothing, when there are kMost already.
+  /// As `HapticKernel::grasp` and `HapticKernel::release`. Return false and do nothing if there are already kMost
+  /// requests.
   bool grasp(std::size_t hand, std::size_t part) noexcept {
     return add({static_cast<std::int32_t>(hand), static_cast<std::int32_t>(part)});
   }
@@ -60,15 +61,15 @@ class HoldRequests {
 /// One tick of the haptic thread.
 struct TickRecord {
   // Consumed.
-  std::int64_t number = 0;                    ///< 1, 2, 3, …: of all ticks with a state of any hand
-  std::int64_t sequence = 0;                  ///< of `state`; 0: a tick of the fade at the end, which has no state
+  std::int64_t number = 0;                    ///< 1, 2, 3, …: counts the ticks with a state of any hand
+  std::int64_t sequence = 0;                  ///< sequence of `state`; 0: a tick of the final fade, without a state
   std::chrono::nanoseconds deadline{0};       ///< scheduled start
   std::chrono::nanoseconds time{0};           ///< actual start, on the loop's clock
-  std::chrono::nanoseconds last_duration{0};  ///< `duration` of the tick before
+  std::chrono::nanoseconds last_duration{0};  ///< `duration` of the previous tick
   bool is_stopped = false;                    ///< the force of all hands was stopped before this tick
   std::int32_t hand_count = 0;                ///< entries in use in arrays of hands
   std::array<bool, hands::kMaxHands> has_state{};
-  std::array<devices::GloveState, hands::kMaxHands> states{};  ///< the newest one of each hand that has one
+  std::array<devices::GloveState, hands::kMaxHands> states{};  ///< the newest state of each hand with `has_state`
   HoldRequests requests;
   std::int64_t set_sequence = 0;  ///< `ContactSet::sequence` of the newest set
   std::int32_t part_count = 0;    ///< `ContactSet::part_count`
@@ -85,31 +86,31 @@ struct AnswerRecord {
   ContactSet set;  ///< produced
 };
 
-/// Gets what a loop does. Both functions are called by one thread, or each by a thread of its own.
+/// Receives the records of a loop. One thread may call both functions, or each function has a thread of its own.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
 
   virtual void after_tick(const TickRecord& record) noexcept = 0;
-  virtual void after_answer(const AnswerRecord& record) noexcept = 0;  ///< before a tick can use the answer
+  virtual void after_answer(const AnswerRecord& record) noexcept = 0;  ///< called before a tick can use the answer
 };
 
-/// Hands the records of a loop in real time over to observers that may take their time, in a thread of its own. The
-/// haptic thread and the simulation thread only fill rings; both functions are real-time safe. An answer is passed on
-/// before the ticks that use it.
+/// Passes the records of a real-time loop to observers that may be slow, in a thread of its own. The haptic thread and
+/// the simulation thread only fill ring buffers, so both functions are real-time safe. An answer is passed on before
+/// the ticks that use it.
 class BackgroundObserver final : public LoopObserver {
  public:
   /// The observers must outlive this object.
   explicit BackgroundObserver(std::vector<LoopObserver*> observers);
   BackgroundObserver(const BackgroundObserver&) = delete;
   BackgroundObserver& operator=(const BackgroundObserver&) = delete;
-  /// Passes on what is left.
+  /// Passes on the remaining records.
   ~BackgroundObserver() override;
 
   void after_tick(const TickRecord& record) noexcept override { ticks_.push(record); }
   void after_answer(const AnswerRecord& record) noexcept override { answers_.push(record); }
 
-  /// Records lost because the thread did not keep up for 1,000 ticks or longer. Any thread.
+  /// Number of records lost because the thread was 1,000 ticks or more behind. Any thread.
   std::uint64_t dropped() const noexcept { return ticks_.dropped() + answers_.dropped(); }
 
  private:
@@ -126,18 +127,18 @@ class BackgroundObserver final : public LoopObserver {
 /// The gloves of a recorded loop, and the first events of the recording.
 struct RecordingHead {
   std::vector<devices::GloveInfo> gloves;  ///< one for each hand
-  std::vector<devices::LogEvent> events;   ///< that the application adds
+  std::vector<devices::LogEvent> events;   ///< events that the application adds
 };
 
-/// The events of a recording: HAPTIC_TICK and CONTACT_SET, with all that a replay needs, and for other programs of LCM
-/// HAPTIC_STATE, GLOVE_STATE for each new state and GLOVE_INFO five times a second. There are no GLOVE_COMMAND, so that
-/// `lcm-logplayer` leads no glove. Events have the times of the loop's clock. Not thread-safe.
+/// The events of a recording. HAPTIC_TICK and CONTACT_SET have all data that a replay needs. For other LCM programs
+/// there are HAPTIC_STATE, GLOVE_STATE for each new state, and GLOVE_INFO five times a second. There are no
+/// GLOVE_COMMAND events, so `lcm-logplayer` moves no glove. Events have the times of the loop's clock. Not thread-safe.
 class RecordedEvents {
  public:
   explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
 
   const std::vector<devices::LogEvent>& at_start() const { return head_.events; }
-  /// HAPTIC_TICK, then the others.
+  /// The HAPTIC_TICK event, followed by those of `others_of`.
   std::vector<devices::LogEvent> of(const TickRecord& record);
   std::vector<devices::LogEvent> others_of(const TickRecord& record);
   static devices::LogEvent of(const AnswerRecord& record);
@@ -148,8 +149,8 @@ class RecordedEvents {
   std::optional<std::chrono::nanoseconds> announced_;
 };
 
-/// What the tick of a HAPTIC_TICK consumed, when it started, and how long it took; what it produced has its default
-/// values. No value for an event on another channel, and if its bytes were changed.
+/// The inputs, start time and duration of the tick in a HAPTIC_TICK event. The results of the tick have default values.
+/// No value for an event on another channel or with changed bytes.
 std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event);
 
 /// Writes all events to a file.
@@ -161,8 +162,8 @@ class LogRecorder final : public LoopObserver {
   void after_tick(const TickRecord& record) noexcept override;
   void after_answer(const AnswerRecord& record) noexcept override;
 
-  /// Ends the file, after the last call of the functions above. Throws std::runtime_error, naming the file, when not
-  /// everything could be written.
+  /// Ends the file. Call it after the last call of the functions above. Throws std::runtime_error, naming the file,
+  /// when not everything could be written.
   void close();
 
  private:
@@ -172,8 +173,7 @@ class LogRecorder final : public LoopObserver {
   bool is_incomplete_ = false;  // there was no memory for an event
 };
 
-/// Keeps the events of the last seconds in memory of a bounded size, and writes them to a file when it is asked to.
-/// Thread-safe.
+/// Keeps the events of the last seconds in memory of bounded size. `write` writes them to a file. Thread-safe.
 class FlightRecorder final : public LoopObserver {
  public:
   static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20;  ///< about five seconds or more of one hand
@@ -183,7 +183,7 @@ class FlightRecorder final : public LoopObserver {
   void after_tick(const TickRecord& record) noexcept override;
   void after_answer(const AnswerRecord& record) noexcept override;
 
-  /// Writes the events that are kept, the oldest first. Throws as `EventLogWriter` does.
+  /// Writes the kept events, the oldest first. Throws as `EventLogWriter` does.
   void write(const std::string& path) const;
 
  private:
