@@ -14,7 +14,7 @@
 
 namespace glissade::devices {
 
-/// One message and when it was recorded.
+/// One message and the time of its recording.
 struct LogEvent {
   std::chrono::microseconds time{0};  ///< since an epoch that is the same for all events of a log
   std::string channel;
@@ -29,7 +29,7 @@ class EventLogWriter {
   /// Throws std::invalid_argument, naming the file, when it cannot be created.
   explicit EventLogWriter(const std::string& path);
 
-  /// Appends an event. A failure is told by `close`.
+  /// Appends an event. `close` reports a failure.
   void write(const LogEvent& event);
 
   /// Ends the log. Throws std::runtime_error, naming the file, when not everything could be written, for example on a
@@ -42,21 +42,20 @@ class EventLogWriter {
   std::int64_t written_ = 0;
 };
 
-/// Reads a log from the beginning to the end, or up to the first damage: the bytes of a file may be anything. Logs that
-/// were joined, and logs from which events were taken out, are whole: the numbers of events are not looked at. Not
-/// thread-safe.
+/// Reads a log from the beginning to the end, or up to the first damage. Accepts any bytes in a file. Ignores the
+/// numbers of events, so joined logs and logs with removed events are undamaged. Not thread-safe.
 class EventLogReader {
  public:
   /// Throws std::invalid_argument, naming the file, when it cannot be read or is no event log.
   explicit EventLogReader(const std::string& path);
 
-  /// The next event; none at the end and from the first damage on.
+  /// The next event. No value at the end of the log and after the first damage.
   std::optional<LogEvent> next();
 
   /// Number of events read so far.
   std::int64_t count() const noexcept { return count_; }
 
-  /// A sentence with the file, the place and the kind of the damage; empty while there is none.
+  /// A sentence with the file, place and kind of the damage; empty without damage.
   const std::string& damage() const noexcept { return damage_; }
 
  private:
@@ -73,22 +72,22 @@ class EventLogReader {
   std::string damage_;
 };
 
-/// The state of a glove, and which glove it is.
+/// The state of a glove, with the numbers of its device and session.
 struct LoggedState {
   std::int64_t device = 0;
   std::int64_t session = 0;
   GloveState state;
 };
 
-/// An event with this message; its time is rounded down to microseconds.
+/// An event with this message. The event's time is rounded down to microseconds.
 LogEvent to_event(std::chrono::nanoseconds time, std::string channel, std::vector<std::uint8_t> message);
 
-/// Events on the channels of the bus, with the messages that are sent there.
+/// Events with the channel and message that the bus would carry.
 LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
 LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state);
 LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);
 
-/// What the event tells. No value if it is on another channel, or if the message does not pass the checks of a
+/// The content of the event. No value if the event is on another channel, or if its message fails the checks of a
 /// receiver.
 std::optional<GloveInfo> glove_info_of(const LogEvent& event);
 std::optional<LoggedState> glove_state_of(const LogEvent& event);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A force-feedback glove as the haptic loop sees it: its state, the commands asked of it, its limits, and the
-/// interface of a device driver. Frames: W world, H hand root, i.e. the frame of the hand whose pose the glove reports.
+/// A force-feedback glove in the haptic loop: its state, commands and limits, and the interface of a device driver.
+/// Frames: W world, H hand root, i.e. the frame of the hand whose pose the glove reports.
 
 #include <array>
 #include <chrono>
@@ -17,15 +17,15 @@
 
 namespace glissade::devices {
 
-/// Reasons why a command differs from the wanted one. The first seven let the force fade to zero.
+/// Reasons why a command differs from the wanted command. The first seven let the force fade to zero.
 struct LimitReasons {
   bool is_stopped = false;      ///< stopped for good: an emergency stop, or the end of the program
   bool is_disabled = false;     ///< the wearer does not hold the enable switch
   bool is_refused = false;      ///< the glove obeys another server
   bool not_finite = false;      ///< a number of the wanted command or of the state is NaN or infinite
-  bool is_implausible = false;  ///< a state contradicts the descriptor or the states before, now or a short time ago
+  bool is_implausible = false;  ///< a state contradicts the descriptor or earlier states, now or shortly before
   bool is_state_old = false;    ///< the newest state was measured too long ago
-  bool is_command_old = false;  ///< the wanted command answers a state that was measured too long ago, or never
+  bool is_command_old = false;  ///< the wanted command answers a state that was measured too long ago or does not exist
   bool is_returning = false;    ///< the force returns softly, after the start or after one of the reasons above
   bool force_limited = false;   ///< the force was scaled down to the device's maximum
   bool torque_limited = false;  ///< the torque was scaled down to the device's maximum
@@ -33,7 +33,7 @@ struct LimitReasons {
   bool rate_limited = false;    ///< force or torques may not change as fast as wanted
   bool power_limited = false;   ///< the wrench was scaled down to the largest power
   bool mean_limited = false;    ///< the force was scaled down because its mean is near the largest mean
-  bool energy_limited = false;  ///< the wrench was scaled down because it had given back all energy
+  bool energy_limited = false;  ///< the wrench was scaled down because too little energy is left
 
   /// The force fades or is zero.
   bool is_fading() const noexcept {
@@ -79,25 +79,26 @@ struct GloveState {
   Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< velocity of the origin of H, in world axes; m/s
   Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< angular velocity of H, in world axes; rad/s
   hands::JointValues joint_angles{};
-  /// How often the hand has closed or opened so far: odd while it is closed and holds what it can. A count loses
-  /// nothing when states are lost. A driver that cannot tell leaves it at 1.
+  /// Number of times that the hand has closed or opened so far: odd while the hand is closed. The count keeps its
+  /// meaning when states are lost. A driver that does not detect the grip leaves it at 1.
   std::int64_t grip = 1;
   bool obeys_another = false;  ///< the glove obeys another server, and ignores the commands of this one
   bool is_enabled = true;      ///< false while the wearer does not hold the enable switch, if the glove has one
-  /// What the envelope at the glove made of the last command, and the age of that command there: the time from the
-  /// measurement of the state that it answers, i.e. of the whole round trip. Empty for a glove in the same process.
+  /// The reasons for which the envelope at the glove limited the last command. `command_age` is the time from the
+  /// measurement of the state that this command answers, i.e. the time of the whole round trip. Both are empty for a
+  /// glove in the same process.
   LimitReasons limits;
   std::chrono::nanoseconds command_age{0};
-  std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` there
-  double energy = 0.0;                     ///< `SafeCommand::energy` of that command, J
-  /// `SafeCommand::taken` of that command, J; none for a glove in the same process.
+  std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` at the glove
+  double energy = 0.0;                     ///< `SafeCommand::energy` of the last command, J
+  /// `SafeCommand::taken` of the last command, J; none for a glove in the same process.
   std::optional<double> taken{};
 };
 
-/// Forces (N) and torques (Nm) that somebody asks of the glove. All are zero by default. No device takes a command of
-/// this type: `SafetyEnvelope` makes a `SafeCommand` of it.
+/// Forces (N) and torques (Nm) wanted from the glove, zero by default. No device takes a command of this type:
+/// `SafetyEnvelope` makes a `SafeCommand` of it.
 struct GloveCommand {
-  std::int64_t session = 0;                         ///< of the sender, as its receiver knows it; 0 in one process
+  std::int64_t session = 0;                         ///< session of the sender, set by the receiver; 0 in one process
   std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
   std::int64_t state_sequence = 0;                  ///< `GloveState::sequence` of the state that the command answers
   std::chrono::nanoseconds state_time{0};           ///< `GloveState::time` of this state, on the glove's clock
@@ -105,10 +106,10 @@ struct GloveCommand {
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   hands::JointValues joint_torques{};               ///< positive toward larger joint angles
-  /// J, so far: the energy that bodies which move without this hand, such as a part in another hand, have given to it,
-  /// less what they ask of it; and the hand's work against force that was withheld. Where it rises, the envelope lets
-  /// force and torque give the hand so much more. Where it falls, the hand gives up what it can spare
-  /// (`GloveState::taken`).
+  /// Total energy (J) so far that independently moving bodies, such as a part in another hand, have given to this hand,
+  /// less the energy that they ask back, plus the hand's work against force that was withheld. When `supply` rises, the
+  /// envelope lets force and torque give the hand as much more. When it falls, the hand gives up the energy that it can
+  /// spare (`GloveState::taken`).
   double supply = 0.0;
 };
 
@@ -121,9 +122,9 @@ struct DeviceDescriptor {
   double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
-  /// The device itself, without forces and without a hand. The stiffness that it can render passively follows from
-  /// these numbers (`passive_stiffness`, `finger_stiffness`); the mass does not matter. 0: not known. A device
-  /// that has hardly any damping tells a small number.
+  /// The device alone, without forces and without a hand. These numbers give the stiffness that the device can render
+  /// passively (`passive_stiffness`, `finger_stiffness`). 0 means not known, so a device with hardly any damping must
+  /// give a small number.
   double damping = 0.0;               ///< viscous friction against translation
   double rotational_damping = 0.0;    ///< viscous friction against rotation
   double joint_damping = 0.0;         ///< viscous friction of each finger joint
@@ -131,44 +132,44 @@ struct DeviceDescriptor {
   double joint_friction = 0.0;        ///< Coulomb friction of each finger joint, Nm
   double resolution = 0.0;            ///< smallest step, or standard deviation, of the measured position
   double joint_resolution = 0.0;      ///< smallest step of the measured joint angles
-  std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, beyond the period and the link
-  /// Largest rates of change: of the force (N/s), the torque and each joint torque (Nm/s). 0: from zero to the maximum
-  /// in seven periods of the device, and in two for joint torques (`joint_torque_rate`).
+  std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, in addition to the period and the link
+  /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). With 0, force and torque may
+  /// go from zero to the maximum in seven periods of the device, and joint torques in two (`joint_torque_rate`).
   double max_force_rate = 0.0;
   double max_torque_rate = 0.0;
   double max_joint_torque_rate = 0.0;
   double max_power = 50.0;             ///< largest power that force and torque put into the hand
   double max_mean_force = 0.0;         ///< largest mean of the force's norm over about ten seconds; 0: `max_force`
-  double max_speed = 10.0;             ///< a hand that seems faster is an error of the tracker, m/s
-  double max_turn_rate = 100.0;        ///< the same for the rotation, rad/s
-  double workspace_radius = 1000.0;    ///< a hand that seems farther from the world's origin is an error of the tracker
-  std::chrono::nanoseconds frozen{0};  ///< a pose that repeats to the bit for longer is an error; 0: not checked
-  hands::JointValues joint_lower{};  ///< lower limits of the joint angles; both limits of a joint that is absent are 0
-  hands::JointValues joint_upper{};  ///< upper limits of the joint angles
-  double update_rate = 1000.0;       ///< updates per second
+  double max_speed = 10.0;             ///< a greater measured speed is an error of the tracker, m/s
+  double max_turn_rate = 100.0;        ///< a greater measured angular speed is an error of the tracker, rad/s
+  double workspace_radius = 1000.0;    ///< a greater distance from the world's origin is an error of the tracker
+  std::chrono::nanoseconds frozen{0};  ///< a pose that repeats bit by bit for longer is an error; 0: not checked
+  hands::JointValues joint_lower{};    ///< lower limits of the joint angles; both limits of an absent joint are 0
+  hands::JointValues joint_upper{};    ///< upper limits of the joint angles
+  double update_rate = 1000.0;         ///< updates per second
 };
 
 /// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
-/// the prefix `max_`, or one of the numbers of the device itself, is negative; a joint's lower limit is not below its
-/// upper limit, unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is
-/// negative.
+/// the prefix `max_` or a number of the device alone is negative; a joint's lower limit is not below its upper limit,
+/// unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is negative.
 void validate(const DeviceDescriptor& descriptor);
 
-/// Seconds by which the force of the device lags behind the motion in a loop of this period, behind a link of this
-/// delay: half a period, because it is held that long, and all delays. The period is at least the device's.
+/// The lag (seconds) of the device's force behind the motion, in a loop of this period and behind a link of this delay:
+/// half a period, because the force is held for a period, plus the delays of device and link. The period counts as at
+/// least the device's.
 double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
               std::chrono::nanoseconds link_delay) noexcept;
 
-/// The largest stiffness that is passive with the damping `told` at this lag (seconds), in units that fit each other:
-/// damping by lag. If the descriptor does not tell the damping (0), the device is taken to have just as much as
-/// `greatest`, its largest stiffness, needs to be passive without a link. Source: Colgate and Schenkel, Passivity of a
-/// class of sampled-data systems, 1997.
+/// The largest stiffness that is passive with the damping `told` at this lag (seconds): damping divided by lag, in
+/// matching units. If `told` is 0, the device counts as having the damping with which `greatest`, its largest
+/// stiffness, is passive without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems,
+/// 1997.
 double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept;
 
-/// The rate (Nm/s) by which a joint torque changes at most.
+/// The largest rate (Nm/s) of change of a joint torque.
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;
 
-/// Who a glove is, and what it can do.
+/// The identity and capabilities of a glove.
 struct GloveInfo {
   std::int64_t device = 0;   ///< number of the glove
   std::int64_t session = 0;  ///< random number of the glove's process
@@ -179,7 +180,7 @@ struct GloveInfo {
 class SafeCommand;
 
 /// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
-/// functions are wait-free, allocate nothing and make no system call; a driver that has to wait for its device waits in
+/// functions are wait-free, allocate nothing and make no system call. A driver that must wait for its device does so in
 /// a thread of its own.
 class GloveDevice {
  public:
@@ -189,8 +190,7 @@ class GloveDevice {
   virtual const DeviceDescriptor& descriptor() const noexcept = 0;
 
   /// Copies the newest state to `newest` and returns true. Until the first state has arrived, leaves `newest` unchanged
-  /// and returns false. Later calls return true even if no new state has arrived; then `sequence` is that of the last
-  /// call.
+  /// and returns false. Later calls return true even if no new state has arrived; `sequence` then stays the same.
   virtual bool read(GloveState& newest) noexcept = 0;
 
   /// Hands over `command` for sending. If an earlier command has not been sent yet, `command` replaces it.

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the forces, as viewers and recorders
-/// see it. A part is an object that hands move. Frames: W world; V visible part, the pose at which the part is shown;
-/// G ghost, where the part would be if nothing were in the way.
+/// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the forces, for viewers and
+/// recorders. A part is an object that hands move. Frames: W world; V visible part, the pose at which the part is
+/// shown; G ghost, where the part would be if nothing were in the way.
 
 #include <array>
 #include <chrono>
@@ -20,11 +20,11 @@
 
 namespace glissade::devices {
 
-/// State of the part in the simulation. Messages carry its number. The numbers keep their meaning in all versions. The
-/// target is the pose to which the hand pulls the part. A contact pushes while it exerts a force.
+/// State of the part in the simulation. Messages carry the number of the state, which keeps its meaning in all
+/// versions. The target is the pose to which the hand pulls the part. A contact pushes while it exerts a force.
 enum class PartState : std::int32_t {
-  kUnknown = 0,     ///< the state was not reported, or this program has no state with that number
-  kReleased = 1,    ///< no hand holds the part; it stands still
+  kUnknown = 0,     ///< the state was not reported, or its number is unknown to this program
+  kReleased = 1,    ///< no hand holds the part, and the part stands still
   kFree = 2,        ///< the part is at its target
   kSliding = 3,     ///< contacts push, and the part moves along the contacts
   kResting = 4,     ///< contacts push, and the part stands still
@@ -34,7 +34,7 @@ enum class PartState : std::int32_t {
 /// Number of part states; their values run from 0 to kPartStates − 1.
 inline constexpr std::int32_t kPartStates = 6;
 
-/// The name of a state, such as "sliding"; "unknown" for a value that is none of the above.
+/// The name of a state, such as "sliding"; "unknown" for any other value.
 std::string_view name_of(PartState state);
 
 /// The state with this number; kUnknown for any other number.
@@ -52,40 +52,40 @@ inline constexpr std::size_t kHapticPatches = 8;
 
 /// A part after one haptic tick.
 struct HapticPartState {
-  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< of a part that no hand holds: X_WV
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< equal to X_WV for a part that no hand holds
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();
-  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the reference point, at which the hands' spring acts
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the reference point, where the spring of each hand acts
   PartState state = PartState::kUnknown;
   std::int32_t contact_count = 0;  ///< contacts that push
 
   bool is_in_contact() const noexcept { return contact_count > 0; }
-  /// From the visible part to its ghost, of the reference point: metres, and a rotation vector.
+  /// The displacement of the reference point from the visible part to its ghost: metres, and a rotation vector.
   geometry::Displacement lag() const { return geometry::displacement_between(X_WV, X_WG, p_Vref); }
 };
 
 /// A hand after one haptic tick.
 struct HapticHandState {
-  std::int32_t part = -1;  ///< number of the part that it holds; −1: none
-  /// The wrench on the hand as its device got it, in world axes: N; Nm about the origin of V, or of the hand root while
-  /// it holds nothing.
+  std::int32_t part = -1;  ///< number of the part that the hand holds; −1: none
+  /// The wrench on the hand that its device received, in world axes: N, and Nm about the origin of V, or about the hand
+  /// root while the hand holds nothing.
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_V_W = Eigen::Vector3d::Zero();
-  /// The share of the contacts' force that may be exerted, which the force follows within 75 ms: less than 1 where they
-  /// are old, or where the hand has left them and the part lags behind, and while the force returns from there.
+  /// The share of the contact force that may be exerted. The force follows it within 75 ms. It is less than 1 if the
+  /// contacts are old, if the hand has left them and the part lags behind, and while the force returns after that.
   double contact_share = 1.0;
-  bool are_contacts_unsolved = false;       ///< the contacts had no solution, so their force went towards zero
-  LimitReasons reasons;                     ///< why the device got less than the contacts demand
+  bool are_contacts_unsolved = false;       ///< the contacts had no solution, so their force goes to zero
+  LimitReasons reasons;                     ///< why the device received less than the contacts demand
   std::chrono::nanoseconds state_age{0};    ///< time since the measurement of the glove's state
   LimitReasons glove_reasons;               ///< `GloveState::limits`
   std::chrono::nanoseconds command_age{0};  ///< `GloveState::command_age`
   double energy = 0.0;                      ///< `SafeCommand::energy`, J
   double glove_energy = 0.0;                ///< `GloveState::energy`
-  hands::VisibleHand visible;               ///< of a hand with fingers
-  hands::JointValues joint_torques{};       ///< Nm, as its device got them
+  hands::VisibleHand visible;               ///< set for a hand with fingers
+  hands::JointValues joint_torques{};       ///< Nm, as the device received them
 };
 
-/// J that force and torque may still give to the hand: by the envelope of the glove, if its states tell of one, because
-/// it acts on what the hand really gets; otherwise by that of the server.
+/// The energy (J) that force and torque may still give to the hand. It is the value of the glove's envelope, which acts
+/// on what the hand really gets, if the glove's states report one. Otherwise it is the value of the server's envelope.
 inline double energy_left(const HapticHandState& hand) noexcept {
   return hand.command_age > std::chrono::nanoseconds(0) ? hand.glove_energy : hand.energy;
 }
@@ -97,29 +97,29 @@ struct HapticContact {
   Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
 };
 
-/// Contacts of a part with one object that lie in one plane, and of which at least one pushes.
+/// Contacts of a part with one object that lie in one plane. At least one of them pushes.
 struct HapticPatch {
   std::int32_t part = 0;
-  std::int32_t contact_count = 0;                 ///< those that push
+  std::int32_t contact_count = 0;                 ///< number of contacts that push
   Eigen::Vector3f p_V = Eigen::Vector3f::Zero();  ///< centre of their forces in the part's frame, metres
   Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
-  float extent = 0.0F;                            ///< distance from the centre to the farthest of them, metres
+  float extent = 0.0F;                            ///< distance from `p_V` to the farthest of these contacts, metres
 };
 
-/// One haptic tick. The contact set is the newest answer of the simulation to a pose of each ghost: the poses X_WV and
-/// the contacts of the parts.
+/// One haptic tick. Its contact set is the simulation's newest answer to the ghost poses: the poses X_WV and the
+/// contacts of the parts.
 struct HapticState {
   std::int64_t sequence = 0;                    ///< ≥ 0, increases with every tick
   std::chrono::nanoseconds time{0};             ///< time of the tick, on the haptic loop's clock
-  std::chrono::nanoseconds contact_set_age{0};  ///< time since these ghost poses; 0 before the first set
+  std::chrono::nanoseconds contact_set_age{0};  ///< time since the ghost poses of the set; 0 before the first set
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
   std::chrono::nanoseconds lateness{0};         ///< `time` less the time for which the tick was scheduled
-  std::chrono::nanoseconds last_duration{0};    ///< of the tick before, until its commands were handed over
+  std::chrono::nanoseconds last_duration{0};    ///< duration of the previous tick until its commands were handed over
   std::int32_t part_count = 1;
   std::int32_t hand_count = 1;
-  std::int32_t contact_count = 0;     ///< contacts that push, as far as there is room
-  std::int32_t patch_count = 0;       ///< patches, as far as there is room
-  std::int32_t patches_left_out = 0;  ///< those for which there is none
+  std::int32_t contact_count = 0;     ///< number of contacts that push, at most kHapticContacts
+  std::int32_t patch_count = 0;       ///< number of patches, at most kHapticPatches
+  std::int32_t patches_left_out = 0;  ///< number of patches beyond kHapticPatches
   std::array<HapticPartState, kHapticParts> parts{};
   std::array<HapticHandState, kHapticHands> hands{};
   std::array<HapticContact, kHapticContacts> contacts{};

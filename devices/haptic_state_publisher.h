@@ -17,22 +17,21 @@
 namespace glissade::devices {
 
 /// The haptic thread, i.e. the thread of the haptic loop, fills a ring buffer. A second thread, which the publisher
-/// starts, sends the contents. Others that want every state hear of it from this thread: the haptic thread fills no
-/// second ring for them.
+/// starts, sends the contents and calls the listener with every state.
 class HapticStatePublisher {
  public:
   static constexpr std::size_t kDefaultCapacity = 1024;  ///< the states of about one second
 
   using Listener = std::function<void(const HapticState&)>;
 
-  /// `listener`, which may be empty, gets each state in the publisher's thread, also one that cannot be sent. Throws
-  /// std::invalid_argument when the bus is null or `capacity` is 0.
+  /// `listener` may be empty. It receives each state in the publisher's thread, also a state that cannot be sent.
+  /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, Listener listener = {},
                                 std::size_t capacity = kDefaultCapacity);
   /// Publishes the states still in the ring.
   ~HapticStatePublisher();
 
-  /// Haptic thread: queues `state` and returns true. When the ring is full, drops and counts the state, and returns
+  /// Haptic thread: queues `state` and returns true. If the ring is full, drops and counts the state, and returns
   /// false. Wait-free.
   bool push(const HapticState& state) noexcept { return ring_.push(state); }
 

@@ -1,13 +1,13 @@
 #pragma once
 
-/// A connection to LCM (Lightweight Communications and Marshalling), which any number of senders and receivers share.
-/// The URL of the connection selects the transport.
+/// A connection to LCM (Lightweight Communications and Marshalling). Any number of senders and receivers share a
+/// connection. Its URL selects the transport.
 ///
 /// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
-/// processes and hosts by UDP multicast. Messages to `udpm://239.255.76.67:7667?ttl=0` stay on this machine, and with
-/// `ttl=0` only messages of this machine are received. With a greater ttl, only what arrives by the interface to which
-/// this machine routes the group is received. Other programs of LCM (`lcm-logger`, `lcm-spy`) can take part; of their
-/// messages, those in one packet are received, and fragments are dropped.
+/// processes and hosts by UDP multicast. With `ttl=0`, as in `udpm://239.255.76.67:7667?ttl=0`, messages stay on this
+/// machine, and the bus receives only messages of this machine. With a greater ttl, the bus receives only messages from
+/// the interface to which this machine routes the group. Other LCM programs (`lcm-logger`, `lcm-spy`) can take part.
+/// The bus receives messages in one packet, and drops fragments.
 
 #include <array>
 #include <cstdint>
@@ -21,15 +21,16 @@
 namespace glissade::devices {
 
 /// A secret that all programs on an address share. With a key, each message carries a code of 32 bytes (keyed BLAKE2b
-/// of channel and message), and messages without the right code are dropped. Nothing is encrypted, and a recorded
-/// message can be sent again: sessions, sequences and ages limit what that does. Programs of LCM that do not know the
-/// key see messages that are 32 bytes longer than their type.
+/// of channel and message), and messages without the right code are dropped. Nothing is encrypted. An attacker can
+/// resend a recorded message; sessions, sequences and ages limit the effect. LCM programs without the key see messages
+/// that are 32 bytes longer than their type.
 struct LcmKey {
   std::array<std::uint8_t, 32> bytes{};
 };
 
 /// Reads a key: one line of 64 hexadecimal digits, such as `openssl rand -hex 32` prints. Throws std::invalid_argument,
-/// naming the file, if it cannot be read, has another content, or if others than its owner may read or change it.
+/// naming the file, if the file cannot be read, has another content, or is readable or writable by others than its
+/// owner.
 LcmKey read_lcm_key(const std::string& path);
 
 /// Sends and receives raw messages by channel. One thread, started by the first subscription, receives for all
@@ -68,8 +69,8 @@ class LcmBus {
   /// without subscribers is lost at once. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Number of packets dropped so far because they came from elsewhere, were no packet of a message, or had no
-  /// code of the bus's key. Any thread.
+  /// Number of packets dropped so far because they came from another machine or interface, were not a packet of a
+  /// message, or had no valid code for the bus's key. Any thread.
   std::uint64_t refused_packets() const noexcept;
 
  private:
@@ -90,12 +91,12 @@ class LcmBus::Subscription {
   std::int64_t id_;
 };
 
-/// Numbers of messages that one receiver has accepted, rejected for each reason, and missed so far.
+/// Numbers of messages that one receiver has accepted, rejected (by reason) and missed so far.
 struct LinkStatistics {
   std::uint64_t accepted = 0;
   std::uint64_t wrong_size = 0;       ///< the size is not that of the expected type
   std::uint64_t undecodable = 0;      ///< the size is right, but the message has another type
-  std::uint64_t wrong_version = 0;    ///< the message has the version of another program
+  std::uint64_t wrong_version = 0;    ///< the message has another version of the message format
   std::uint64_t not_finite = 0;       ///< a number is NaN or infinite
   std::uint64_t out_of_range = 0;     ///< a number is implausibly large, or a quaternion is not a unit quaternion
   std::uint64_t other_receiver = 0;   ///< the message is for another device
@@ -109,7 +110,7 @@ struct LinkStatistics {
   }
 };
 
-/// The reasons for which messages were refused for their contents, such as "a number is not finite".
+/// The reasons for which messages were rejected because of their contents, such as "a number is not finite".
 std::vector<std::string> refusals_of(const LinkStatistics& link);
 
 }  // namespace glissade::devices

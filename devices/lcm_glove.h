@@ -3,9 +3,9 @@
 /// The two ends of a glove's LCM link: `LcmGlove` for the server, i.e. the program with the haptic loop, and
 /// `LcmGloveHost` for the program that drives the glove.
 ///
-/// Each end has a session, a random number drawn when it starts. Each end obeys one sender at a time, the one that
-/// holds the lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then its
-/// messages are counted in `LinkStatistics::other_sender`.
+/// Each end has a session, a random number drawn when it starts. Each end obeys one sender at a time, which holds the
+/// lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then its messages are
+/// counted in `LinkStatistics::other_sender`.
 
 #include <atomic>
 #include <chrono>
@@ -30,23 +30,23 @@ namespace glissade::devices {
 
 class LinkMonitor;
 
-/// The number of a device, unless another is given.
+/// The default number of a device.
 inline constexpr std::int64_t kDefaultDevice = 1;
 
-/// Hears the announcements on the channel GLOVE_INFO, which each `LcmGloveHost` sends five times a second, from its
-/// construction on. Any thread.
+/// Receives the announcements of gloves, from construction on. Each `LcmGloveHost` sends one on the channel GLOVE_INFO
+/// five times a second. Any thread.
 class GloveSearch {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive.
   explicit GloveSearch(std::shared_ptr<LcmBus> bus);
 
-  /// The newest announcement of the glove with this number. Waits for the first one; no value if none came within
-  /// `timeout`.
+  /// The newest announcement of the glove with this number. Waits for the first announcement; no value if none arrives
+  /// within `timeout`.
   std::optional<GloveInfo> wait_for(std::int64_t device, std::chrono::milliseconds timeout);
-  /// The numbers of all gloves that were heard so far, in rising order.
+  /// The numbers of all gloves found so far, in ascending order.
   std::vector<std::int64_t> heard() const;
-  /// What was heard so far and does not lead to a glove, in sentences: announcements and states that are refused, and
-  /// gloves that send states but do not announce themselves.
+  /// Sentences about received messages that do not lead to a glove: rejected announcements and states, and gloves that
+  /// send states but do not announce themselves.
   std::vector<std::string> troubles() const;
 
  private:
@@ -61,8 +61,8 @@ class GloveSearch {
 };
 
 struct LcmGloveOptions {
-  std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all others are rejected
-  /// `GloveInfo::session` of the glove that has the lease at the start; 0: the first to come gets it.
+  std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all other gloves are rejected
+  /// `GloveInfo::session` of the glove that has the lease at the start; 0: the first sender gets the lease.
   std::int64_t glove_session = 0;
   /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
   /// the send thread would cost the haptic thread a system call for every command.
@@ -70,9 +70,9 @@ struct LcmGloveOptions {
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
-/// The haptic loop's end of the link: receives states on the channel GLOVE_STATE and sends commands on GLOVE_COMMAND,
-/// the former in the receive thread of the bus, the latter in a thread of its own. If any command was sent, the
-/// destructor sends a last command with zero forces and torques.
+/// The haptic loop's end of the link: receives states on the channel GLOVE_STATE in the receive thread of the bus, and
+/// sends commands on GLOVE_COMMAND in a thread of its own. If any command was sent, the destructor sends a last command
+/// with zero forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send
@@ -107,17 +107,17 @@ class LcmGlove final : public GloveDevice {
 };
 
 struct LcmGloveHostOptions {
-  std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to all others are rejected
+  std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to other gloves are rejected
   hands::HandSide side = hands::HandSide::kUnknown;
-  /// A command may answer a state that was measured so many periods ago, of the device or, if longer, of a millisecond:
-  /// the time for the way to the server and back. After that, the force fades.
+  /// The greatest age, in periods, of the state that a command answers: the time for the way to the server and back.
+  /// When the state is older, the force fades. The period is that of the device, but at least a millisecond.
   double patience_periods = 6.0;
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
 /// The glove driver's end of the link: announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
-/// commands on GLOVE_COMMAND. It limits each command by an envelope of its own, whatever the server or the network did.
-/// Thread-safety: one thread, the driver's, calls `publish` and `newest_command`.
+/// commands on GLOVE_COMMAND. It limits each command by an envelope of its own. Thread-safety: one thread, the
+/// driver's, calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, or the descriptor is not valid.
@@ -125,15 +125,15 @@ class LcmGloveHost {
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state` together with the outcome of the last `newest_command`, and the announcement when it is due; returns
-  /// false when the operating system does not accept it. May block.
+  /// Sends `state` together with the outcome of the last `newest_command`, and the announcement when it is due. Returns
+  /// false when the operating system does not accept the state. May block.
   bool publish(const GloveState& state);
 
-  /// What the device is to do in this period; call it once a period. `newest` is the state measured last. Without any
-  /// command, or when the newest is old, there is no force. Wait-free.
+  /// The command for the device in this period; call it once a period. `newest` is the state measured last. There is no
+  /// force without a command, or if the newest command is old. Wait-free.
   SafeCommand newest_command(const GloveState& newest) noexcept;
 
-  /// Emergency stop, for ever. Wait-free, any thread.
+  /// Emergency stop: the force fades to zero and stays there. Wait-free, any thread.
   void stop() noexcept { should_stop_.store(true, std::memory_order_relaxed); }
 
   /// Statistics of the messages from the server. Any thread.

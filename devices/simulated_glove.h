@@ -1,8 +1,8 @@
 #pragma once
 
-/// A force-feedback glove without hardware: a hand on a grounded force-feedback arm, moved by a wearer. The wearer
-/// follows a script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has
-/// neither threads nor clocks: the same inputs give bit-identical outputs.
+/// A simulated force-feedback glove: a hand on a grounded force-feedback arm, moved by a wearer. The wearer follows a
+/// script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has neither threads
+/// nor clocks: the same inputs give bit-identical outputs.
 
 #include <chrono>
 #include <cstdint>
@@ -25,14 +25,14 @@ inline constexpr double kArmRotationalDamping = 0.01;
 /// Viscous friction of each finger joint of the glove, Nm s/rad.
 inline constexpr double kJointDamping = 0.02;
 
-/// Joint angles (rad) at a time of the script.
+/// Joint angles (rad) at one time of the script.
 struct TimedAngles {
   std::chrono::nanoseconds time{0};
   hands::JointValues angles{};
 };
 
-/// The angles at a time: linear between two entries, constant before the first and after the last. `timed` has at least
-/// one entry; their times rise. Cost O(log n).
+/// The angles at a time: linear between two entries, constant before the first and after the last. `timed` must have at
+/// least one entry, and ascending times. Cost O(log n).
 hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
 
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
@@ -48,13 +48,13 @@ struct SimulatedGloveParameters {
   double wearer_rotational_stiffness = 4.0;               ///< Nm/rad
   double wearer_rotational_damping = 0.22;                ///< Nm s/rad
   double finger_stiffness = 0.5;                          ///< Nm/rad
-  /// Time constant of a finger's approach to its equilibrium; s. Times the stiffness it is the friction of glove and
-  /// finger together.
+  /// Time constant of a finger's approach to its equilibrium; s. Multiplied by the stiffness, it is the viscous
+  /// friction of glove and finger together.
   double finger_time_constant = 0.05;
   hands::JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
-  /// The same while the hand is open; none: the hand opens without moving its fingers.
+  /// Joint angles of the open hand; none: the hand opens without moving its fingers.
   std::optional<hands::JointValues> open_posture{};
-  /// Joint angles over the time of the script, which replace both postures. Without entries, the grip chooses the
+  /// Joint angles over the time of the script. They replace both postures. Without entries, the grip chooses the
   /// posture.
   std::vector<TimedAngles> fingers{};
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
@@ -67,14 +67,13 @@ struct SimulatedGloveParameters {
 /// the literature. The joint limits are the limits of the human hand.
 DeviceDescriptor simulated_glove_descriptor();
 
-/// The simulation, by semi-implicit Euler in steps of at most 1 ms. Not thread-safe. Nothing is allocated after
-/// construction.
+/// The simulation, by semi-implicit Euler in steps of at most 1 ms. Allocates only at construction. Not thread-safe.
 class SimulatedGlove {
  public:
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
-  /// std::invalid_argument, naming the parameter, for a number that is not finite, for negative damping, and for any
-  /// other parameter that is not positive. Angles of the posture may be zero or negative. Also throws when stiffness or
-  /// damping is so large that steps of 1 ms would not be stable, and for times of the fingers that do not rise.
+  /// std::invalid_argument, naming the parameter, for a number that is not finite, negative damping, and any other
+  /// parameter that is not positive, except angles of postures. Also throws if stiffness or damping is too large for
+  /// stable steps of 1 ms, and for times of the fingers that do not ascend.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
@@ -82,14 +81,13 @@ class SimulatedGlove {
   /// The current state. The initial state has sequence 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
 
-  /// Advances the simulation by `dt` under the command `newest`. Returns the new state: its sequence is higher by one,
-  /// its time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command counts for three periods
-  /// of the device, and fades in seven more: as in a device that guards itself against a driver that is late. (An
-  /// envelope counts it for 10 ms.) The wearer goes on in the script at `pace` times its
-  /// speed, from 0 (the wearer stops and waits) to 1.
+  /// Advances the simulation by `dt` under the command `newest`. Returns the new state, with a sequence higher by one
+  /// and a time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command acts for three periods
+  /// of the device and fades in seven more, as in a device that guards itself against a late driver. (An envelope
+  /// counts it for 10 ms.) The wearer follows the script at `pace` times its speed, from 0 (the wearer waits) to 1.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 
-  /// The time of the script at which the wearer is.
+  /// The wearer's present time in the script.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_; }
 
  private:

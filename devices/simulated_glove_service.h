@@ -1,6 +1,6 @@
 #pragma once
 
-/// A simulated glove on an LCM bus: like a real glove, it publishes states and receives commands, in a thread of its
+/// A simulated glove on an LCM bus. Like a real glove, it publishes states and receives commands, in a thread of its
 /// own at 1 kHz.
 
 #include <atomic>
@@ -21,14 +21,13 @@ class WearersView;
 
 /// The service runs from construction to `stop` or destruction. The simulated hand waits at the start of its script,
 /// i.e. of its given trajectory, until the first command arrives. So the server, which sends the commands, and the
-/// glove may start in either order. From the first command on, the script follows the clock, even if the thread misses
-/// periods, as long as the wearer's hand is answered: a wearer who sees the parts on the channel HAPTIC_STATE slows
-/// down when they lag behind the hand or the server is slow, stops when they stand still, and gives up waiting after
-/// three seconds.
+/// glove may start in either order. After that, the script follows the clock, even if the thread misses periods. The
+/// wearer sees the parts on the channel HAPTIC_STATE. The wearer slows down when the parts lag behind the hand or the
+/// server is slow, stops when the parts stand still, and waits for at most three seconds.
 class SimulatedGloveService {
  public:
-  /// Gets the new state and the command that led to it, in each period, in the thread of the service. Returns whether
-  /// the force may go on; once it may not, it fades for good.
+  /// Receives the new state and the command that led to it, in each period, in the thread of the service. Returns
+  /// whether the force may go on. After the first false, the force fades and stays at zero.
   using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
@@ -39,8 +38,8 @@ class SimulatedGloveService {
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
-  /// Lets the force fade and ends the thread, after at most a tenth of a second. Once this function has returned, the
-  /// results of the functions below no longer change.
+  /// Lets the force fade and ends the thread after at most a tenth of a second. After the return, the results of the
+  /// functions below no longer change.
   void stop();
 
   /// The extra time that the wearer has needed for the script because answers were old. Any thread.

@@ -76,9 +76,8 @@ struct HandTick {
   std::optional<std::size_t> part;  ///< number of the part that it holds
   contact::Wrench contacts;         ///< wrench of the contacts on the hand about the ghost's reference point
   contact::Wrench pull;             ///< wrench of other hands' pull on the part, about the same point
-  double contact_share =
-      1.0;  ///< share of the contact force: less than 1 if the contacts are old or the hand has left them
-  bool is_unsolved = false;  ///< the contacts have no solution, so their wrench goes towards zero
+  double contact_share = 1.0;       ///< share of the contact force: less than 1 if the contacts are old or left behind
+  bool is_unsolved = false;         ///< the contacts have no solution, so their wrench goes towards zero
   /// Wrench of contacts, pull and damper about the hand root, limited by the safety envelope. Zero without a state.
   devices::SafeCommand command;
 };
