@@ -1,7 +1,7 @@
 #pragma once
 
-/// The clasp of a chain round objects (paper §4): of all postures that a glove asks for, the nearest one that touches
-/// nothing. The visible hand gets these postures only, and the way from each to the next is free too.
+/// The clasp of a chain round objects (paper §4): the collision-free posture nearest to the posture that a glove asks
+/// for. The path from each posture to the next is also collision-free. The visible hand gets only these postures.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,10 +19,10 @@ namespace glissade::grasping {
 
 enum class ClaspState : std::uint8_t {
   kClasping,  ///< the posture touches nothing, and follows the target as far as objects allow
-  /// The chain has not been free since the start, since the motion of the cart, or since an object was placed inside
-  /// it. The posture stays where it is, and gives no forces; the clasp begins once the target is free.
+  /// The chain has not been free since the start, since a motion of the cart, or since an object was placed inside it.
+  /// The posture stays as it is, and gives no forces. The clasp begins once the target is free.
   kWaiting,
-  kLost,  ///< `lose_track`, and no target since: as `kWaiting`
+  kLost,  ///< after `lose_track`, until the next target: as `kWaiting`
 };
 
 std::string_view name_of(ClaspState state);
@@ -30,14 +30,15 @@ std::string_view name_of(ClaspState state);
 struct ClaspRules {
   /// The gap (metres) at which contacts stop a link.
   double margin = 20e-6;
-  /// A link that is nearer to an object than this (metres, at most 0.2 mm) and whose target lies deeper touches it. It
-  /// may be as much farther from an obstacle as that one's own margin is greater.
+  /// A link touches an object if their distance is less than `touching` (metres, at most 0.2 mm) and the link's target
+  /// lies deeper. An obstacle with a greater margin of its own increases this distance by the difference.
   double touching = 0.1e-3;
-  /// The steps of one call; each has a proof. More of them follow a fast hand more closely.
+  /// The greatest number of steps in a call. Each step has a proof that it is free. More steps follow a fast hand more
+  /// closely.
   int most_steps = 8;
-  /// Work after which a call takes no further step, in the unit of `contact::SlidingRules::work_budget`: the next call
-  /// goes on from there. A step is never divided, and where there was none, one flex value may still try to go on
-  /// alone. Positive; none: no limit.
+  /// Work after which a call takes no further step, in the unit of `contact::SlidingRules::work_budget`. The next call
+  /// goes on from there. A step is never divided. If there was no step, one flex value may still try to go on alone.
+  /// Positive; none: no limit.
   std::optional<std::int64_t> work_budget{};
 };
 
@@ -45,19 +46,20 @@ struct ClaspRules {
 struct LinkContact {
   std::size_t link = 0;
   contact::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
-  double depth = 0.0;        ///< metres, to first order: how far beyond the contact the target of the link lies
+  double depth = 0.0;        ///< metres, to first order: distance of the link's target beyond the contact
 };
 
-/// Surfaces stop a link, not what they enclose, because meshes may be open: a chain that lies wholly within a closed
-/// object counts as free and cannot leave it, and so does a chain that has an object wholly within one of its links.
+/// Only surfaces stop a link, not the volume within them, because meshes may be open. So a chain wholly within a closed
+/// object counts as free and cannot leave the object. A chain with an object wholly within one of its links counts as
+/// free, too.
 ///
 /// Deterministic. Not thread-safe.
 class Clasp {
  public:
-  /// `fixed` are bodies that never move; `objects` stand still during a call, and may be placed elsewhere between two.
-  /// The links of the chain may touch each other. Throws std::invalid_argument for a null chain, for a chain without
-  /// meshes and for rules out of range. Throws also where the constructor of `contact::CertifiedBodies` does. Cost: the
-  /// trees of the links.
+  /// `fixed` are bodies that never move. `objects` stand still during a call, and may be placed elsewhere between
+  /// calls. The links of the chain may touch each other. Throws std::invalid_argument for a null chain, for a chain
+  /// without meshes and for rules out of range, and as the constructor of `contact::CertifiedBodies` does. Cost:
+  /// building the trees of the links.
   Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<contact::Obstacle> fixed,
         std::vector<std::shared_ptr<const contact::SlidingPart>> objects, const ClaspRules& rules = {});
   Clasp(Clasp&&) noexcept;
@@ -65,47 +67,48 @@ class Clasp {
   ~Clasp();
 
   const KinematicChain& chain() const;
-  /// The links with meshes, in their order.
+  /// The links with meshes, in order.
   const std::vector<std::shared_ptr<const contact::SlidingPart>>& bodies() const;
 
-  /// Places an object. If the chain is no longer free there, the clasp waits.
+  /// Places an object. If the chain then is not free, the clasp waits.
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
 
-  /// The same for an object of which the caller knows that it has touched nothing on its way there.
+  /// Places an object that has touched nothing on its path, as the caller knows.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
-  /// Places the chain, which moves with an object that it holds. The caller knows that it has touched nothing on its
-  /// way. In the next call of `advance`, every link that is near an object touches it unless its target leads away: a
-  /// root that is led has no target that lies deeper.
+  /// Places the chain, which moves with an object that it holds. The caller knows that the chain has touched nothing on
+  /// its path. In the next call of `advance`, every link near an object touches it unless the link's target leads away,
+  /// because a root that is placed has no deeper target.
   void carry(const Posture& posture);
 
-  /// Moves the chain towards the target; flex values beyond their limits count as the limits. A target that is not
-  /// finite is ignored: the posture stays, and touches what it touched.
+  /// Moves the chain towards the target. Flex values beyond their limits count as the limits. Ignores a target that is
+  /// not finite: posture and contacts stay the same.
   void advance(const Posture& target);
 
-  /// The tracker has not seen the hand for a while. Nothing touches any more. The clasp begins anew at the next target
-  /// that is free, wherever that is; where a target is inside something, from where the chain was, if that is still
+  /// Call it when the tracker has lost the hand. Nothing touches any more. The clasp begins anew at the next free
+  /// target, wherever it is. If the target is inside an object, the clasp begins at the old posture if this is still
   /// free.
   void lose_track();
 
-  /// Nothing touches any more, until the next call of `advance`: nobody knows where the hand wants to go.
+  /// Until the next call of `advance`, nothing touches, because the target is not known.
   void forget_contacts();
 
-  /// Moves the chain with the user's cart, whatever is in the way: the clasp waits until a target is free. A posture
-  /// that is not finite is ignored.
+  /// Moves the chain with the user's cart, through obstacles as well. The clasp waits until a target is free. Ignores a
+  /// posture that is not finite.
   void move_cart(const Posture& target);
 
   ClaspState state() const;
   const Posture& posture() const;
   /// The last target, within the limits of the chain.
   const Posture& target() const;
-  /// Whether a link touches, by its number in the chain: it must itself be at an object, with a target that lies
-  /// deeper. That links beyond it touch does not count. Which joint was stopped first does not matter, other than in
-  /// the paper.
+  /// Whether a link touches, by its number in the chain. The link itself must be at an object and have a deeper target;
+  /// contacts of links that hang on it do not count. Unlike in the paper, the order in which joints were stopped does
+  /// not matter.
   std::span<const char> touching() const;
   /// The contacts of all links that touch.
   const std::vector<LinkContact>& contacts() const;
-  /// The postures at which the steps of the last call ended. The root moves straight and by a rotation at a constant
-  /// rate about its origin from each to the next, and the flex values at constant rates; all of this is proven free.
+  /// The postures at the ends of the steps of the last call. From each posture to the next, the root moves along a line
+  /// and rotates at a constant rate about its origin, and the flex values change at constant rates. This motion is
+  /// proven free.
   std::span<const Posture> way() const;
 
  private:

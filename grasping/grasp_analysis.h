@@ -1,7 +1,7 @@
 #pragma once
 
-/// What kind of grasp the contacts of a hand make: the rules of the founding paper (§4), and the grasps that it names
-/// without a rule. docs/grasps.md draws each of them.
+/// Classifies the grasp of a hand from its contacts, by the rules of the founding paper (§4). Also finds the grasps
+/// that the paper names without a rule. docs/grasps.md shows each grasp.
 
 #include <array>
 #include <cstdint>
@@ -21,9 +21,9 @@ namespace glissade::grasping {
 using hands::GraspForm;
 using hands::GraspType;
 
-/// Why nothing is grasped: what the segments that touch an object lack to hold it.
+/// The reason why a hand holds nothing: what its touching segments lack for a grasp.
 enum class GraspLack : std::uint8_t {
-  kNothing,           ///< they hold it
+  kNothing,           ///< the segments hold the object
   kTouch,             ///< nothing touches
   kFinger,            ///< the thumb touches, but neither palm nor fingers
   kThumbOrPalm,       ///< fingers touch, but neither thumb nor palm
@@ -33,15 +33,15 @@ enum class GraspLack : std::uint8_t {
 /// Number of values of `GraspLack`. The values run from 0 to kGraspLacks − 1.
 inline constexpr std::int32_t kGraspLacks = 5;
 
-/// What a grasp needs, such as "a grasp needs a finger as well, or the palm and a middle or outer segment"; empty for
-/// `kNothing`.
+/// A sentence about what a grasp lacks, such as "a grasp needs a finger as well, or the palm and a middle or outer
+/// segment"; empty for `kNothing`.
 std::string_view words_of(GraspLack lack);
 
 struct Grasp {
   GraspType type = GraspType::kNone;
   GraspForm form = GraspForm::kNone;
-  std::int32_t object = -1;   ///< number of the body, as `Contact::obstacle`; -1: nothing touches
-  TouchingSegments segments;  ///< that touch this body
+  std::int32_t object = -1;   ///< number of the touched body, as `Contact::obstacle`; -1: none
+  TouchingSegments segments;  ///< the segments that touch this body
 
   /// Whether the object moves with the hand.
   bool holds() const {
@@ -51,21 +51,21 @@ struct Grasp {
   GraspLack lack() const;
 };
 
-/// The grasp of a hand with fingers as the haptic loop tells of it: without the object.
+/// The grasp of a hand with fingers from the data of the haptic loop, without the object.
 Grasp grasp_of(const hands::VisibleHand& hand);
 
-/// A sentence without a stop, such as "power: the palm and the middle segment of the index touch".
+/// A sentence without a full stop, such as "power: the palm and the middle segment of the index touch".
 std::string reason_of(const Grasp& grasp);
 
-/// Follows the grasp over time. A segment counts as touching once it has touched in most of the last 40 ms or so, and
-/// until it has hardly touched for 70 ms, so that the noise of sensors makes no grasp flicker. No grasp lasts longer
-/// than that without contacts in `update`; of a hand that holds a part, `GraspSimulation` gives some of them while
-/// noise may have taken them away. A segment may touch up to three bodies, each for itself. Of these bodies the one
-/// counts whose grasp is the firmest: power, precision, push. A grasp that holds a part, also one that moves on its
-/// own, comes before any of a fixed body. Real-time safe after construction. Not thread-safe.
+/// Follows the grasp over time. So that sensor noise makes no grasp flicker, a segment counts as touching once it has
+/// touched in most of the last 40 ms, until it has hardly touched for 70 ms. No grasp lasts longer than 70 ms without
+/// contacts in `update`. For a hand that holds a part, `GraspSimulation` passes on contacts that noise may have
+/// removed. A segment may touch up to three bodies. The body with the firmest grasp counts, in the order power,
+/// precision, push. A grasp that holds a part, scripted or not, comes before any grasp of a fixed body. Real-time safe
+/// after construction. Not thread-safe.
 class GraspAnalysis {
  public:
-  /// The first bodies, `fixed_bodies` of them, never move.
+  /// The first `fixed_bodies` bodies never move.
   explicit GraspAnalysis(const HandModel& hand, std::size_t fixed_bodies = 0)
       : meaning_(hand.meaning), first_part_(static_cast<std::int32_t>(fixed_bodies)) {}
 
@@ -75,7 +75,8 @@ class GraspAnalysis {
                       const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
 
-  /// The link, by its number in the chain, touches the body no more, at once: it has plainly left it.
+  /// Ends the touch of the link (by its number in the chain) with the body at once, when the link has clearly left the
+  /// body.
   void forget(std::size_t link, std::int32_t object);
 
   /// Forgets all contacts, as after a loss of tracking.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Hand poses from and for others: the 26 joints of OpenXR hand tracking, and the 24 joints of recordings made with the
-/// Adroit hand, a simulated robot hand. Frames: W world, R root of the hand (`HandModel`).
+/// Conversions of hand poses: from and to the 26 joints of OpenXR hand tracking, and from the 24 joints of recordings
+/// made with the Adroit hand, a simulated robot hand. Frames: W world, R root of the hand (`HandModel`).
 
 #include <array>
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace glissade::grasping {
 
-/// What places a hand: its root, and its flex values in rad.
+/// The pose of a hand: its root, and its flex values in rad.
 struct HandPose {
   Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
   hands::JointValues values{};
@@ -22,7 +22,7 @@ struct HandPose {
 
 inline constexpr std::size_t kOpenXrJoints = 26;
 
-/// The joints of XR_EXT_hand_tracking, in its order.
+/// The joints of XR_EXT_hand_tracking, in the order of that extension.
 inline constexpr std::array<std::string_view, kOpenXrJoints> kOpenXrJointNames{"palm",
                                                                                "wrist",
                                                                                "thumb_metacarpal",
@@ -50,8 +50,8 @@ inline constexpr std::array<std::string_view, kOpenXrJoints> kOpenXrJointNames{"
                                                                                "little_distal",
                                                                                "little_tip"};
 
-/// A joint of OpenXR and its frame: the origin is the joint nearer to the wrist, −z points along the bone to the
-/// tip, y out of the back of the hand (for the thumb: of the nail).
+/// A joint of OpenXR and its frame. The origin is the joint nearer to the wrist, −z points along the bone to the tip,
+/// and y points out of the back of the hand (for the thumb, out of the nail).
 struct OpenXrJoint {
   Eigen::Isometry3d X_WOpenXr = Eigen::Isometry3d::Identity();
   double radius = 0.0;  ///< from the joint to the skin, m
@@ -59,18 +59,18 @@ struct OpenXrJoint {
 
 using OpenXrJoints = std::array<OpenXrJoint, kOpenXrJoints>;
 
-/// The joints of a hand. The joint `wrist` is at the wrist, with the axes of the palm; the joint `palm` in the middle
-/// of the middle finger's metacarpal. Real-time safe; about 2 µs.
+/// The OpenXR joints of a hand. The joint `wrist` is at the wrist, with the axes of the palm. The joint `palm` is in
+/// the middle of the middle finger's metacarpal. Real-time safe; about 2 µs.
 OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
 
 /// The pose of `hand` that is nearest to tracked joints. Reads the rotations of the joints and the position of the
 /// wrist, so the lengths of the tracked hand's bones do not matter. Each flex value is the least-squares angle of its
 /// joint; for the thumb's metacarpal, the direction of the bone counts four times as much as the direction of the nail.
-/// The poses must be rigid; a runtime says which joints it tracks.
+/// The poses must be rigid, so pass only joints that the runtime reports as tracked.
 ///
 /// OpenXR does not know the forearm. So both wrist angles are 0, and R is the frame of the palm. Values may lie beyond
-/// the limits (`KinematicChain::clamp`). The inverse of `to_openxr` up to rounding where the wrist angles are 0.
-/// Real-time safe; about 3 µs.
+/// the limits (`KinematicChain::clamp`). The function is the inverse of `to_openxr` up to rounding if the wrist angles
+/// are 0. Real-time safe; about 3 µs.
 HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept;
 
 inline constexpr std::size_t kAdroitJoints = 24;
@@ -81,12 +81,12 @@ inline constexpr std::array<std::string_view, kAdroitJoints> kAdroitJointNames{
     "RFJ1", "RFJ0", "LFJ4", "LFJ3", "LFJ2", "LFJ1", "LFJ0", "THJ4", "THJ3", "THJ2", "THJ1", "THJ0"};
 
 /// The pose of a right hand for joint angles of the Adroit hand, in rad. Frame Adroit is the wrist frame of the Adroit
-/// hand. Its z axis points to the fingers, x to the thumb's side, y out of the back of the hand.
+/// hand. Its z axis points to the fingers, its x axis to the thumb's side, and its y axis out of the back of the hand.
 ///
-/// Both hands are built differently, so a pose is matched as follows. Angles of the wrist, MCP, PIP and DIP are taken
-/// over; so are the angles between fingers. `palm_arch` lowers the knuckle of the little finger as far as LFJ4 does.
-/// The thumb's metacarpal points as the recorded one does; its MCP and IP joints take over −THJ1 and −THJ0. THJ2, a
-/// sideways motion of the thumb's MCP joint, has no counterpart. Values may lie beyond the limits.
+/// The two hands differ in structure. The angles of the wrist, of MCP, PIP and DIP joints, and between fingers stay the
+/// same. `palm_arch` lowers the knuckle of the little finger as far as LFJ4 does. The thumb's metacarpal has the
+/// recorded direction. The thumb's MCP and IP joints get −THJ1 and −THJ0. THJ2, a sideways motion of the thumb's MCP
+/// joint, has no counterpart. Values may lie beyond the limits.
 ///
 /// Throws std::invalid_argument for a left hand.
 HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,

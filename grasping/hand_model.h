@@ -14,8 +14,8 @@
 
 namespace glissade::grasping {
 
-/// Whose hand: its length from the crease of the wrist to the tip of the middle finger, and its breadth across the
-/// knuckles. The defaults are a typical man's hand; 0.166 m and 0.075 m are a typical woman's.
+/// The size and side of a hand. The length is from the crease of the wrist to the tip of the middle finger, the breadth
+/// across the knuckles. The defaults are a typical man's hand; 0.166 m and 0.075 m are a typical woman's.
 struct HandShape {
   double length_m = 0.183;
   double breadth_m = 0.084;
@@ -24,21 +24,21 @@ struct HandShape {
 
 enum class Finger { kNone, kThumb, kIndex, kMiddle, kRing, kLittle };
 
-/// Such as "middle finger"; empty for `kNone`.
+/// The name of a finger, such as "middle finger"; empty for `kNone`.
 std::string_view name_of(Finger finger);
 
-/// Kinds of segments, named from the palm outwards. The inner segment of a finger is its proximal phalanx, that of the
-/// thumb its metacarpal.
+/// Kinds of segments, from the palm outwards. The inner segment of a finger is its proximal phalanx. The inner segment
+/// of the thumb is its metacarpal.
 enum class HandSegment { kNone, kPalm, kInner, kMiddle, kOuter };
 
-/// What a link is to the analysis of a grasp. The palm consists of three links, because its arch moves the metacarpals
-/// of ring and little finger; their finger is `kNone`. Links without a mesh mean nothing: `kNone`.
+/// The finger and segment of a link, for the grasp analysis. The palm consists of three links with the finger `kNone`,
+/// because its arch moves the metacarpals of ring and little finger. Links without a mesh have the segment `kNone`.
 struct SegmentMeaning {
   Finger finger = Finger::kNone;
   HandSegment segment = HandSegment::kNone;
 };
 
-/// Segments that touch, as a set.
+/// A set of touching segments.
 class TouchingSegments {
  public:
   void add(const SegmentMeaning& segment) { bits_ |= bit(segment); }
@@ -63,31 +63,31 @@ class TouchingSegments {
   std::uint32_t bits_ = 0;
 };
 
-/// The words for a segment, such as "the middle segment of the index".
+/// The name of a segment, such as "the middle segment of the index".
 std::string words_of(const SegmentMeaning& segment);
 
 /// Every hand has the same links in the same order.
 inline constexpr std::size_t kHandLinks = 25;
 
-/// The root R is the end of the forearm at the wrist, where a tracker sits, without a mesh. The palm hangs on it by the
-/// two joints of the wrist; with both wrist angles 0, the palm's frame is R. Axes of R: x points along the forearm
-/// towards the middle finger, z out of the back of the hand. So y points to the thumb's side of a right hand, and away
-/// from the thumb of a left hand, which is the mirror image of the right one at y = 0.
+/// The root R is the end of the forearm at the wrist, where a tracker sits. It has no mesh. The two joints of the wrist
+/// connect the palm to it. With both wrist angles 0, the palm's frame is R. The x axis of R points along the forearm
+/// towards the middle finger, its z axis out of the back of the hand. So y points to the thumb's side of a right hand,
+/// and away from the thumb of a left hand. A left hand is the mirror image of a right hand at y = 0.
 ///
-/// In the frame L of each segment, the origin is the joint nearer to the wrist, x points along the bone to the next
-/// joint or to the tip, z out of the back (on the outer segments: of the nail), and bending about y is flexion.
+/// In the frame L of each segment, the origin is the joint nearer to the wrist. The x axis points along the bone to the
+/// next joint or to the tip, and the z axis out of the back (on the outer segments, out of the nail). Flexion is a
+/// rotation about y.
 ///
-/// The values are those of `hands::kJointNames`, in that order. All flexions are positive where they close the
-/// hand, `thumb_roll` where the thumb comes before the palm, abductions where neighboring fingers spread, `palm_arch`
-/// where ring and little finger come towards the thumb, `wrist_abduction` towards the thumb. With all values 0 the
-/// fingers are straight and parallel. Abductions are relative: the little finger turns with that of the ring finger.
-/// The middle finger does not abduct.
+/// The values have the order of `hands::kJointNames`. Positive flexions close the hand. Positive values of `thumb_roll`
+/// bring the thumb in front of the palm, abductions spread neighboring fingers, `palm_arch` brings ring and little
+/// finger towards the thumb, and `wrist_abduction` turns the hand towards the thumb. With all values 0 the fingers are
+/// straight and parallel. Abductions are relative: the abduction of the ring finger also turns the little finger. The
+/// middle finger does not abduct.
 struct HandModel {
   HandShape shape;
   KinematicChain chain;
   std::array<SegmentMeaning, kHandLinks> meaning;  ///< by link
-  /// The links that turn in the joints of the wrist, from the root on. A part in the hand moves with the last one, the
-  /// palm.
+  /// The links that the wrist joints turn, from the root on. A part in the hand moves with the last link, the palm.
   std::array<std::size_t, 2> wrist_links;
 };
 

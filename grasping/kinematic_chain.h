@@ -1,7 +1,7 @@
 #pragma once
 
-/// A tree of rigid segments joined by hinges: a hand, a gripper, an arm. Use it to place the segments for given joint
-/// angles, and to find out which segments an angle moves, and how far at most.
+/// A tree of rigid segments joined by hinges, such as a hand, a gripper or an arm. It computes the poses of the
+/// segments for given joint angles, and finds which segments an angle moves and how far at most.
 
 #include <cstddef>
 #include <memory>
@@ -17,22 +17,22 @@
 
 namespace glissade::grasping {
 
-/// A number that sets joint angles, in radians, with its limits. The founding paper calls it a flex value (paper §4).
+/// A flex value of the founding paper (§4): a number in radians that sets joint angles, with its limits.
 struct FlexValue {
   std::string name;
   double lower = 0.0;
   double upper = 0.0;
 };
 
-/// A part of a joint's angle: `factor` times the flex value with the number `value`.
+/// A term of a joint's angle: `factor` times the flex value with the number `value`.
 struct JointTerm {
   std::size_t value = 0;
   double factor = 1.0;
 };
 
-/// A segment, and the joint by which it hangs on its parent. Frames: P parent link, J joint, L link. At angle 0, L = J;
-/// a positive angle turns L about `axis_J` by the right-hand rule. A joint with two degrees of freedom consists of two
-/// links at the same place, the first without a mesh.
+/// A segment, and the joint that connects it to its parent. Frames: P parent link, J joint, L link. At angle 0, L = J.
+/// A positive angle turns L about `axis_J` by the right-hand rule. A joint with two degrees of freedom consists of two
+/// links at the same place, the first of them without a mesh.
 struct ChainLink {
   std::string name;
   std::optional<std::size_t> parent;  ///< a link with a lower number; none for the root, link 0, whose frame is R
@@ -43,21 +43,20 @@ struct ChainLink {
   std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: nothing that could touch
 };
 
-/// Where a chain is: the pose of its root and its flex values, the paper's (M, F).
+/// The posture of a chain: the pose of its root and its flex values, the paper's (M, F).
 struct Posture {
   Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
   std::vector<double> values;  ///< rad, one for each flex value
 };
 
-/// Immutable after construction, so safe to share between threads. All functions but the constructor are real-time
-/// safe: they neither allocate nor wait.
+/// Immutable after construction, so threads may share it. All functions but the constructor are real-time safe: they
+/// neither allocate nor wait.
 class KinematicChain {
  public:
-  /// Throws std::invalid_argument, naming the link or the flex value: without links; for a name that is empty or occurs
-  /// twice; for numbers that are not finite; for a lower limit above the upper one; for a parent that does not come
-  /// before its child; for a root that has a joint; for an X_PJ that is no rigid pose; for an axis not of unit length
-  /// (to 1e-6); for a term with a value that does not exist; for a mesh without vertices. Cost
-  /// O(links · (links + values) + vertices).
+  /// Throws std::invalid_argument, naming the link or the flex value, in these cases: no links; a name that is empty or
+  /// occurs twice; a number that is not finite; a lower limit above the upper limit; a parent that does not come before
+  /// its child; a root with a joint; an X_PJ that is no rigid pose; an axis not of unit length (to 1e-6); a term with a
+  /// value that does not exist; a mesh without vertices. Cost O(links · (links + values) + vertices).
   KinematicChain(std::vector<FlexValue> values, std::vector<ChainLink> links);
 
   std::span<const FlexValue> values() const& noexcept { return values_; }
@@ -65,14 +64,15 @@ class KinematicChain {
   std::span<const FlexValue> values() const&& = delete;  // of a chain that ends with the expression
   std::span<const ChainLink> links() const&& = delete;
 
-  /// Poses X_WL of all links, for the root at X_WR and flex values in rad, within the limits or not. `values` and
-  /// `X_WL` must have one entry for each value and each link. Cost O(links), about 50 ns a link that moves.
+  /// Computes the poses X_WL of all links, for the root at X_WR and flex values in rad, also beyond the limits.
+  /// `values` must have one entry for each flex value, `X_WL` one for each link. Cost O(links), about 50 ns a link that
+  /// moves.
   void poses(const Eigen::Isometry3d& X_WR, std::span<const double> values,
              std::span<Eigen::Isometry3d> X_WL) const noexcept;
 
-  /// One row of the Jacobian: adds to `rates` how fast (m/rad) each flex value moves the point `p_W` of `link` along
-  /// the unit vector `n_W`, with the links at X_WL and the root at rest. `rates` has an entry for each value; values
-  /// that do not move the link keep theirs. Cost O(joints between the root and the link).
+  /// Adds one row of the Jacobian to `rates`: the motion (m/rad) of the point `p_W` of `link` along the unit vector
+  /// `n_W` for each flex value, with the links at X_WL and the root at rest. `rates` has an entry for each flex value.
+  /// Entries of values that do not move the link stay the same. Cost O(joints between the root and the link).
   void add_rates(std::size_t link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W,
                  std::span<const Eigen::Isometry3d> X_WL, std::span<double> rates) const noexcept;
 
@@ -82,10 +82,9 @@ class KinematicChain {
   /// Whether `descendant` is `link` itself or hangs on it, directly or through other links. O(1).
   bool hangs_on(std::size_t descendant, std::size_t link) const noexcept;
 
-  /// An upper bound, for any flex values, of the distance (m) of the mesh points of `link` from the origin of `joint`:
-  /// the frame of `link` itself or of a link on which it hangs (`hangs_on(link, joint)` must hold). So, where this
-  /// joint turns by an angle a, no point of `link` moves farther than 2 sin(a/2) · reach. 0 for a link without a mesh.
-  /// O(1).
+  /// An upper bound, for any flex values, of the distance (m) of the mesh points of `link` from the origin of the frame
+  /// of the link `joint`. `hangs_on(link, joint)` must hold. So, if this joint turns by an angle a, no point of `link`
+  /// moves farther than 2 sin(a/2) · reach. 0 for a link without a mesh. O(1).
   double reach(std::size_t link, std::size_t joint) const noexcept;
 
   /// Moves each value that is beyond a limit to this limit.

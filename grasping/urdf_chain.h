@@ -1,6 +1,6 @@
 #pragma once
 
-/// Kinematic chains from URDF files, the format of robot descriptions of ROS.
+/// Reads kinematic chains from URDF files, the format of robot descriptions in ROS.
 
 #include <filesystem>
 #include <string>
@@ -10,8 +10,8 @@
 
 namespace glissade::grasping {
 
-/// A chain, and what was skipped or found missing in its mesh files: each sentence of `ImportedMesh::warnings` once,
-/// after the name of the file.
+/// A chain, and warnings about skipped or missing content of its mesh files. Each sentence of `ImportedMesh::warnings`
+/// occurs once, after the name of the file.
 struct UrdfChain {
   KinematicChain chain;
   std::vector<std::string> warnings;
@@ -19,21 +19,21 @@ struct UrdfChain {
 
 /// Reads a robot as a chain. Its root is the root link of the file; each link comes before those that hang on it.
 ///
-/// - Joints: `revolute` with its limits, `continuous` with limits of ±π, and `fixed`. Every joint that turns and mimics
-///   no other gives a flex value with its name, in the order of the links.
+/// - Joints: `revolute` with its limits, `continuous` with limits of ±π, and `fixed`. Every `revolute` or `continuous`
+///   joint without `<mimic>` gives a flex value with the name of the joint, in the order of the links.
 /// - `<mimic>`: the joint turns with the value of the joint that it mimics, directly or through other mimics. Limits of
-///   a joint that mimics are not used.
+///   a joint with `<mimic>` are not used.
 /// - Meshes: the collision geometry of a link, as one mesh. Boxes, cylinders and spheres become triangles. Mesh files
 ///   are read by `geometry::import_mesh`, with `scale`; their paths are absolute, relative to the folder of the URDF
 ///   file, `file://`, or `package://NAME/PATH`. The folder of a package is the nearest folder NAME that contains the
-///   URDF file, or that is in a folder that contains it.
+///   URDF file, or whose parent folder contains it.
 ///
 /// Visual geometry, masses, dynamics and transmissions are ignored.
 ///
 /// Throws std::invalid_argument, naming the file and the link or joint, for a file that is missing or not well formed;
-/// for prismatic, floating and planar joints; for links that do not form one tree; for limits, axes, sizes and scales
-/// that are no proper numbers; for mimics of joints that are missing, fixed or mimic in a circle; for mesh files that
-/// cannot be found or imported. May block on the disk.
+/// for prismatic, floating and planar joints; for links that do not form one tree; for invalid limits, axes, sizes and
+/// scales; for mimics of missing or fixed joints and circular mimics; for mesh files that cannot be found or imported.
+/// May block on the disk.
 UrdfChain read_urdf(const std::filesystem::path& path);
 
 }  // namespace glissade::grasping

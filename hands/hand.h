@@ -1,6 +1,7 @@
 #pragma once
 
-/// What gloves, the simulation and messages call the joints of a human hand, its side, what it does and how it grasps.
+/// Names and numbers for gloves, the simulation and messages: the joints of a human hand, its side, its activity and
+/// its grasp.
 
 #include <array>
 #include <cstddef>
@@ -48,9 +49,9 @@ struct JointRange {
   double upper_deg;
 };
 
-/// Ranges of the joints of a human hand, in the order of `kJointNames`. A thumb rolled to its lower limit lies in the
-/// plane of the palm. The ranges of the abductions keep every finger within its range to the palm: index −15..30,
-/// ring −20..15, little −40..20 degrees towards the thumb.
+/// Ranges of the joints of a human hand, in the order of `kJointNames`. At the lower limit of its roll, the thumb lies
+/// in the plane of the palm. The ranges of the abductions keep every finger within its range relative to the palm, in
+/// degrees towards the thumb: index −15..30, ring −20..15, little −40..20.
 inline constexpr std::array<JointRange, kJoints> kJointRanges{{{-20, 60}, {-10, 60}, {-15, 80}, {0, 60},
                                                                {-20, 90}, {0, 105},  {-10, 90},  // index
                                                                {-20, 90}, {0, 105},  {-10, 90},  // middle
@@ -64,17 +65,18 @@ inline constexpr std::array<JointRange, kJoints> kJointRanges{{{-20, 60}, {-10, 
 /// Left or right. Messages carry the number.
 enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
-/// What a hand with fingers does. Messages carry its number.
+/// The activity of a hand with fingers. Messages carry its number.
 enum class HandActivity : std::int32_t {
   kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
-  kLost = 1,     ///< its tracker does not see it, and it holds nothing
-  kWaiting = 2,  ///< it has been inside an object since the start or since it was found, and waits until it is free
-  kFree = 3,     ///< it holds nothing, though it may touch
-  kHolding = 4,  ///< a part moves with it, also while its tracker does not see it
+  kLost = 1,     ///< the tracker has lost the hand, and the hand holds nothing
+  kWaiting = 2,  ///< the hand has been inside an object since the start or since its tracker found it, and waits until
+                 ///< it is free
+  kFree = 3,     ///< the hand holds nothing, but may touch objects
+  kHolding = 4,  ///< a part moves with the hand, also while its tracker has lost it
 };
 
-/// Whether a hand with fingers stands somewhere among the objects. One that waits or is lost is in nobody's way, and
-/// its posture has no meaning.
+/// Whether a hand with fingers is present among the objects. A hand that waits or is lost is no obstacle, and its
+/// posture has no meaning.
 constexpr bool is_present(HandActivity activity) noexcept {
   return activity == HandActivity::kFree || activity == HandActivity::kHolding;
 }
@@ -82,8 +84,8 @@ constexpr bool is_present(HandActivity activity) noexcept {
 /// Number of activities; their values run from 0 to kHandActivities − 1.
 inline constexpr std::int32_t kHandActivities = 5;
 
-/// What the segments that touch make of a grasp (paper §4); the thumb's segments count as finger segments too. Messages
-/// carry its number.
+/// The type of a grasp, from the touching segments (paper §4). The thumb's segments count as finger segments, too.
+/// Messages carry the number of the type.
 enum class GraspType : std::int32_t {
   kNone = 0,       ///< nothing touches
   kPush = 1,       ///< one segment or the palm alone; segments without thumb and palm; or palm and inner segments only
@@ -94,28 +96,27 @@ enum class GraspType : std::int32_t {
 /// Number of types; their values run from 0 to kGraspTypes − 1.
 inline constexpr std::int32_t kGraspTypes = 4;
 
-/// A grasp with a name of its own, among those of a type. Messages carry its number.
+/// A named form of a grasp within a type. Messages carry the number of the form.
 enum class GraspForm : std::int32_t {
   kNone = 0,
   kTipPinch = 1,    ///< precision: outer segments of thumb and index only
-  kThreeJaw = 2,    ///< precision: outer segments of thumb, index and middle finger, both fingers from one side
+  kThreeJaw = 2,    ///< precision: outer segments of thumb, index and middle finger; both fingers touch the same side
   kThreePoint = 3,  ///< precision: outer segments of thumb and two fingers, from three sides
   kKey = 4,         ///< precision: the thumb's outer segment against the side of the index
   kCigarette = 5,   ///< push: two neighboring fingers from opposite sides, without the thumb
-  kGravity = 6,     ///< push or power: all contacts carry the object from below, two at least
+  kGravity = 6,     ///< push or power: at least two contacts, which all carry the object from below
 };
 
 /// Number of forms; their values run from 0 to kGraspForms − 1.
 inline constexpr std::int32_t kGraspForms = 7;
 
-/// A hand with fingers as the simulation shows it: it never goes into anything.
+/// The visible hand with fingers, which never penetrates an object.
 struct VisibleHand {
   HandActivity activity = HandActivity::kNone;
   GraspType grasp = GraspType::kNone;
   GraspForm form = GraspForm::kNone;
-  /// The segments that touch what is grasped, the reason of the grasp: the sum of 2^(4 f + s) over them, where f is 0
-  /// for the palm and 1 to 5 for thumb to little finger; s is 0 for the palm and 1 to 3 for a finger's inner, middle
-  /// and outer segment.
+  /// The segments that touch the grasped object: the sum of 2^(4 f + s) over these segments. f is 0 for the palm and 1
+  /// to 5 for thumb to little finger. s is 0 for the palm and 1 to 3 for a finger's inner, middle and outer segment.
   std::int32_t touching = 0;
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   JointValues angles{};  ///< rad

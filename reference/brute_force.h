@@ -1,11 +1,11 @@
 #pragma once
 
-/// Intersection of two meshes by brute force: every triangle of one against every triangle of the other. A reference
-/// that faster queries are compared with; use `dop_query.h` for all other purposes.
+/// Intersection of two meshes by brute force: every triangle of one mesh against every triangle of the other. It is a
+/// reference for comparison with faster queries. Use `dop_query.h` for all other purposes.
 ///
-/// Pairs with disjoint axis-aligned bounding boxes are skipped; the others are decided by the exact predicate of
-/// `triangle_pair.h`. The coordinates are the same as in `dop_query.h`: the vertices of A, and the vertices of B
-/// transformed by X_AB in double precision. Only triangles of positive area take part; touching counts. Cost O(n·m).
+/// The exact predicate of `triangle_pair.h` decides each pair whose axis-aligned bounding boxes overlap. The
+/// coordinates are the same as in `dop_query.h`: the vertices of A, and the vertices of B transformed by X_AB in double
+/// precision. Triangles of zero area are ignored. Touching counts as intersection. Cost O(n·m).
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A triangle-triangle test in plain double arithmetic for `grid_check.h`. It shares no code with the exact predicates,
-/// so that comparison reveals a mistake in either.
+/// so that a comparison of both reveals mistakes.
 
 #include <Eigen/Core>
 
@@ -14,9 +14,9 @@ struct CheckTriangle {
   Eigen::Vector3d p2;
 };
 
-/// Whether some axis (the normals, the cross products of edges, and those of edges with normals for coplanar triangles)
-/// certainly separates the two triangles. False where the gap is lost in rounding (about 1e-14 of their extent): a
-/// caller that treats "not separated" as a collision never misses one.
+/// Whether some axis certainly separates the two triangles. The axes are the normals, the cross products of edges and,
+/// for coplanar triangles, the cross products of edges with normals. False if the gap is within rounding errors (about
+/// 1e-14 of the triangles' extent). So a caller that treats "not separated" as a collision misses no collision.
 bool separated(const CheckTriangle& a, const CheckTriangle& b);
 
 }  // namespace glissade::reference

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Two methods of sliding contact behind one interface, to compare them: that of `contact::Sliding`, and that of the
-/// founding paper, *Natural Interaction in Virtual Environments*, §3.
+/// One interface for two methods of sliding contact, for comparison: the method of `contact::Sliding`, and the method
+/// of the founding paper, *Natural Interaction in Virtual Environments*, §3.
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace glissade::reference {
 
-/// The simulation of one part in the hand; its functions are those of `contact::Sliding`. Not thread-safe.
+/// The simulation of one part in the hand. Its functions are those of `contact::Sliding`. Not thread-safe.
 class SlidingSimulation {
  public:
   SlidingSimulation() = default;
@@ -27,7 +27,8 @@ class SlidingSimulation {
   SlidingSimulation& operator=(const SlidingSimulation&) = delete;
   virtual ~SlidingSimulation() = default;
 
-  /// With the paper's method and force feedback, the hand feels the full spring force of an offset.
+  /// With the paper's method and force feedback, the hand feels the full spring force of an offset between hand and
+  /// part.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;
   virtual void release() = 0;
   virtual const contact::SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
@@ -39,10 +40,10 @@ class SlidingSimulation {
   virtual const contact::CouplingStiffness& stiffness() const = 0;
   /// For the paper's method: the largest gap of a reported contact, as in `Contact::margin`.
   virtual double margin() const = 0;
-  /// Collision checks since construction, or searches for contacts.
+  /// Number of collision checks or contact searches since construction.
   virtual std::int64_t queries() const = 0;
 
-  /// The states that the method's state machine went through in the last call, in order, such as
+  /// The states of the method's state machine in the last call, in order, such as
   /// "moving>bisecting>classifying>new-direction>criterion>done". Empty for methods without a state machine.
   virtual std::string trace() const { return {}; }
 
@@ -55,20 +56,20 @@ enum class SlidingMethod : std::uint8_t {
   kPaper,       ///< the founding paper's bisection and classification of contacts (paper §3)
 };
 
-/// Names of the methods, as on the command line, in the order of the values of `SlidingMethod`.
+/// Command-line names of the methods, in the order of the values of `SlidingMethod`.
 inline constexpr std::array<std::string_view, 2> kSlidingMethodNames{"projection", "paper"};
 
 inline std::string_view name_of(SlidingMethod method) {
   return kSlidingMethodNames[static_cast<std::size_t>(method)];
 }
 
-/// The method with this name; nothing for an unknown name.
+/// The method with this name; no value for an unknown name.
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
-/// The simulation of one part by either method. For `kProjection`, throws as the constructor of `Sliding` does. The
-/// paper's method uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles.
-/// For `kPaper`, throws std::invalid_argument for scripted parts, if there is no obstacle, for null pointers, for poses
-/// that `geometry::rigid_pose` rejects, and for a part that collides with an obstacle at its start.
+/// The simulation of one part by either method. For `kProjection`, throws as the constructor of `Sliding` does.
+/// `kPaper` uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles. It
+/// throws std::invalid_argument for scripted parts, no obstacle, null pointers, poses that `geometry::rigid_pose`
+/// rejects, and a part that collides with an obstacle at its start.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<contact::Obstacle> obstacles,
                                                 std::shared_ptr<const contact::SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start,

@@ -1,13 +1,13 @@
 #pragma once
 
-/// The assembly of the demonstration: a window motor is carried through the access hole of a car door's inner panel,
-/// past the side-impact tube, to its seat on the back of the inner panel.
+/// The assembly of the demonstration. The path of the window motor leads through the access hole of a car door's inner
+/// panel, past the side-impact tube, to the motor's seat on the back of the inner panel.
 ///
 /// All parts except the motor are given in the world frame W: x forward along the car, y outwards from the cabin (the
-/// hand is at y < 0), z up. The motor is given in its own frame V, whose axes are parallel to those of W when it is
-/// seated, and whose origin is near its centre. `detail` scales the number of triangles: 1 gives about 50,000 for the
-/// motor and 50,000 for the four door parts together. No dimension depends on it. Each function throws
-/// std::invalid_argument when `detail` is not within 0.001 ... 100. Sheet metal is open and has no thickness.
+/// hand is at y < 0), z up. The motor is given in its own frame V. The origin of V is near the motor's centre, and its
+/// axes are parallel to those of W when the motor is seated. `detail` scales the number of triangles, not the
+/// dimensions: 1 gives about 50,000 triangles for the motor and 50,000 for the four door parts together. Each function
+/// throws std::invalid_argument when `detail` is not within 0.001 ... 100. Sheet metal is open and has no thickness.
 
 #include <Eigen/Geometry>
 
@@ -16,11 +16,11 @@
 
 namespace glissade::shapes {
 
-/// Inner panel in the plane y = 0, 0.9 m × 0.6 m about the origin.
+/// Inner panel in the plane y = 0: 0.9 m × 0.6 m about the origin.
 inline constexpr double kInnerPanelWidth = 0.9;
 inline constexpr double kInnerPanelHeight = 0.6;
 
-/// Access hole of the inner panel: its size and centre along x and z, and the radius of its corners, in metres.
+/// Access hole of the inner panel, in metres: size and centre along x and z, and corner radius.
 inline constexpr double kAccessHoleWidth = 0.22;
 inline constexpr double kAccessHoleHeight = 0.15;
 inline constexpr double kAccessHoleX = 0.0;
@@ -33,8 +33,8 @@ inline constexpr double kImpactTubeZ = 0.0;
 inline constexpr double kImpactTubeRadius = 0.016;
 inline constexpr double kImpactTubeLength = 0.86;
 
-/// The bead above the seat that stops the bracket: the foot of its lower flank is the line z = kStopBeadZ, y = 0.
-/// It rises towards y > 0; the panel between it and the access hole is exactly flat except for the bolt holes.
+/// The bead above the seat stops the bracket. The foot of its lower flank is the line z = kStopBeadZ, y = 0. The bead
+/// rises towards y > 0. The panel between bead and access hole is exactly flat except for the bolt holes.
 inline constexpr double kStopBeadZ = 0.2;
 
 /// Bounds of the motor: x in [-0.09, 0.09], y in [-0.038, 0.038], z in [-0.055, 0.055] of V.
@@ -42,31 +42,31 @@ inline constexpr double kMotorHalfWidth = 0.09;
 inline constexpr double kMotorHalfDepth = 0.038;
 inline constexpr double kMotorHalfHeight = 0.055;
 
-/// The motor's drum, around the line x = 0.04, z = -0.005 of V: the only part of the motor beyond y = 0.02 of V.
+/// The motor's drum is around the line x = 0.04, z = -0.005 of V. Only the drum reaches beyond y = 0.02 of V.
 inline constexpr double kDrumRadius = 0.026;
 
 /// Start pose of the motor: in the cabin in front of the access hole, clear of everything.
 Eigen::Isometry3d start_pose_WV();
 
-/// Seat pose of the motor: its bracket lies flush on the back of the inner panel, and its upper edge meets the foot of
-/// the stop bead, both at a distance of exactly zero.
+/// Seat pose of the motor. The bracket lies flush on the back of the inner panel, and its upper edge meets the foot of
+/// the stop bead. Both distances are exactly zero.
 Eigen::Isometry3d seat_pose_WV();
 
 /// Inner panel with access hole, stiffening beads and the bolt holes of the motor's bracket.
 SheetMetal inner_panel_layout();
 geometry::TriangleMesh make_door_inner_panel(double detail);
 
-/// Outer panel: gently curved, y from about 0.13 at the corners to 0.165 in the middle.
+/// Outer panel, gently curved: y rises from about 0.13 at the corners to 0.165 in the middle.
 geometry::TriangleMesh make_door_outer_panel(double detail);
 
 /// Side-impact tube, an open shell.
 geometry::TriangleMesh make_door_impact_tube(double detail);
 
-/// A hose of 20 mm that winds from the lower rear past the outer side of the impact tube to the upper front.
+/// A hose of 20 mm diameter that winds from the lower rear past the outer side of the impact tube to the upper front.
 geometry::TriangleMesh make_door_hose(double detail);
 
-/// The window motor in its frame V: motor can, gearbox with ribs, cable drum, connector and sheet-metal bracket as one
-/// mesh of several components, some of which overlap.
+/// The window motor in its frame V: one mesh of a motor can, a gearbox with ribs, a cable drum, a connector and a
+/// sheet-metal bracket. Some of these components overlap.
 geometry::TriangleMesh make_window_motor(double detail);
 
 }  // namespace glissade::shapes

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Things of a household that a hand grasps, for tests and pictures of grasping: tools, tableware and small things at
-/// their real sizes, with rounded edges.
+/// Household objects for tests and pictures of grasping: tools, tableware and small objects of real size, with rounded
+/// edges.
 
 #include <string>
 #include <vector>
@@ -11,10 +11,10 @@
 namespace glissade::shapes {
 
 /// A kind of object. `make` returns its mesh in metres. `edge` (metres) is the longest edge of cells on round surfaces;
-/// flat faces have larger triangles. The shape hardly depends on it. Every object consists of closed components with
-/// triangles that face outward, which may overlap where parts are joined, such as a handle and its mug. The sheet of
-/// paper alone is an open sheet without thickness. `make` throws std::invalid_argument for an edge outside
-/// 0.5 ... 20 mm. Its cost is linear in the number of triangles.
+/// flat faces have larger triangles. The shape hardly depends on `edge`. Every object consists of closed components
+/// with triangles that face outward. Joined components, such as a mug and its handle, may overlap. Only the sheet of
+/// paper is an open sheet without thickness. `make` throws std::invalid_argument for an edge outside 0.5 ... 20 mm. The
+/// cost is linear in the number of triangles.
 struct HouseholdObject {
   std::string name;
   std::string description;

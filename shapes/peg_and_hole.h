@@ -1,12 +1,12 @@
 #pragma once
 
-/// A round peg and a plate with a hole for it, both with the flat facets of a tessellation: a narrow fit, for
-/// measurements of sliding contact.
+/// A round peg and a plate with a hole, for measurements of sliding contact in a narrow fit. Both have the flat facets
+/// of a tessellation.
 ///
-/// Radii are those of the inscribed circle, which touches all facets; corners lie farther out by the factor
-/// 1 / cos(π / segments). A peg and a hole with equally many segments, coaxial and not turned, have parallel facets,
-/// and their gap is exactly the difference of the radii. If the peg is turned by half a facet, its corners face the
-/// facets of the hole, and the gap is smaller by radius (1 / cos(π / segments) - 1): 5 µm for a radius of 4 mm and 64
+/// Radii are those of the inscribed circle, which touches all facets. Corners lie farther out by the factor 1 / cos(π /
+/// segments). If peg and hole have equally many segments and are coaxial and not turned, their facets are parallel, and
+/// their gap is exactly the difference of the radii. If the peg is turned by half a facet, its corners face the facets
+/// of the hole, and the gap is smaller by radius (1 / cos(π / segments) - 1): 5 µm for a radius of 4 mm and 64
 /// segments.
 ///
 /// Meshes are closed, face outward, and have no triangle without area.
@@ -21,7 +21,7 @@ namespace glissade::shapes {
 struct PegShape {
   double radius = 4e-3;
   double length = 50e-3;
-  double chamfer = 0.5e-3;  ///< at both ends, 45°; less than the radius and than half the length
+  double chamfer = 0.5e-3;  ///< at both ends, 45°; less than the radius and half the length
   int segments = 64;        ///< facets around, 3 ... 100,000
   int rows = 1;             ///< cells along the straight wall, 1 ... 100,000
 };
@@ -37,8 +37,8 @@ struct HoledPlateShape {
   int rows = 1;             ///< cells along the wall of the hole, 1 ... 100,000
 };
 
-/// Square plate about z, its upper face at z = 0, with a through hole about z whose rims are sharp.
-/// 2 segments (rows + 3) triangles.
+/// Square plate about z with its upper face at z = 0 and a through hole about z with sharp rims. 2 segments (rows + 3)
+/// triangles.
 geometry::TriangleMesh make_holed_plate(const HoledPlateShape& plate);
 
 }  // namespace glissade::shapes

@@ -1,15 +1,15 @@
 #pragma once
 
-/// A bolt and a nut with a metric thread: right-handed, flanks at 60°, crests cut at an eighth of the pitch and roots
-/// at a quarter, as in the basic profile of ISO 68-1.
+/// A bolt and a nut with a right-handed metric thread: flanks at 60°, crests cut at an eighth of the pitch and roots at
+/// a quarter, as in the basic profile of ISO 68-1.
 ///
 /// A nut with as many segments as the bolt is free at all poses of the screw motion: rotation by 2π t about z and
-/// translation by pitch t along z, for *every* t, also between the corners of the facets. From each of these poses it
-/// can move along z by half of the play either way. The facets of both lie on the safe side of the true thread: those
-/// of the bolt inside it, and those of the nut, whose radii are larger by 1 / cos(π / segments), outside. So the free
-/// way along z is at least the play, and at most the play + tan 30° · diameter / 2 · (π / segments)², which adds 13 µm
-/// for the defaults. (The edges of facets are straight where the thread is curved, which reduces it by up to 1.3 pitch
-/// / segments³, here 10 nm.) The radial clearance at the crests and at the roots equals the play.
+/// translation by pitch t along z, for *every* t, also between the corners of the facets. From each of these poses the
+/// nut can move along z by half of the play either way. The bolt's facets lie inside the true thread. The nut's facets
+/// lie outside it, with radii larger by 1 / cos(π / segments). So the free displacement along z is at least the play,
+/// and at most the play + tan 30° · diameter / 2 · (π / segments)². The second term is 13 µm for the defaults. Straight
+/// edges of facets reduce the free displacement by up to 1.3 pitch / segments³, here 10 nm. The radial clearance at the
+/// crests and at the roots equals the play.
 ///
 /// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
 /// are not positive and finite or do not fit together, and for counts out of range.
@@ -21,16 +21,16 @@ namespace glissade::shapes {
 struct ThreadShape {
   double diameter = 16e-3;  ///< outer diameter of the bolt, more than 2.2 pitches
   double pitch = 2e-3;
-  int turns = 10;     ///< of this piece, 1 ... 1000
+  int turns = 10;     ///< turns of the thread, 1 ... 1000
   int segments = 60;  ///< steps per turn, a multiple of 12 for a nut, 12 ... 10,000
 };
 
-/// The thread of a bolt about z, facing outward, as an open sheet from z = 0 to z = turns · pitch. Its lower and its
-/// upper border each rise by one pitch around the axis. 8 segments (turns - 1/4) triangles.
+/// The thread of a bolt about z, as an open sheet that faces outward, from z = 0 to z = turns · pitch. The lower and
+/// the upper border each rise by one pitch around the axis. 8 segments (turns - 1/4) triangles.
 geometry::TriangleMesh make_bolt(const ThreadShape& thread);
 
-/// A nut for that bolt: its thread, an open sheet that faces the axis, in a hexagonal sleeve of 1.5 diameters across
-/// flats, with faces at z = 0 and z = (turns + 1) · pitch. The two are separate components. `play` is along z, less
+/// A nut for this bolt, of two separate components. The thread is an open sheet that faces the axis. The hexagonal
+/// sleeve has 1.5 diameters across flats, and faces at z = 0 and z = (turns + 1) · pitch. `play` is along z, and less
 /// than an eighth of the pitch.
 geometry::TriangleMesh make_nut(const ThreadShape& thread, double play);
 

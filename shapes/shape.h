@@ -1,13 +1,13 @@
 #pragma once
 
-/// A shape of the catalogue: its name and its parameters.
+/// A shape of the catalogue, with its parameters.
 
 #include <string>
 #include <vector>
 
 namespace glissade::shapes {
 
-/// One parameter of a shape: its name with its unit (`radius_m`, `segments`), its meaning, and its default.
+/// One parameter of a shape: name with unit (`radius_m`, `segments`), meaning and default.
 struct ShapeParameter {
   std::string name;
   std::string description;

@@ -1,13 +1,13 @@
 #pragma once
 
-/// A unit that slides into a bay, such as a radio into its slot, and spring tongues of the bay that overlap the unit by
-/// design: for parts that seat although other parts are in their way.
+/// A unit that slides into a bay, such as a radio into its slot. Spring tongues of the bay overlap the unit by design.
+/// The shapes are for tests of parts that seat although other parts are in the way.
 ///
 /// The unit is given in its own frame, which coincides with that of the bay when the unit is seated. It slides in along
-/// +y. When it is seated, the back of its bezel, which lies between y = -bezel_thickness and y = 0, touches the flange
-/// of the bay in the plane y = 0 at a distance of exactly zero. The body reaches from there to y = depth, with
-/// `clearance` to the bay on all sides and at the back. The tongues stand on the walls x = ± (width / 2 + clearance)
-/// and reach into the sides of the body by `overlap`.
+/// +y. The bezel lies between y = -bezel_thickness and y = 0. When the unit is seated, the back of the bezel touches
+/// the flange of the bay in the plane y = 0 at a distance of exactly zero. The body reaches from y = 0 to y = depth,
+/// with `clearance` to the bay on all sides and at the back. The tongues stand on the walls x = ± (width / 2 +
+/// clearance) and reach into the sides of the body by `overlap`.
 ///
 /// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
 /// are not positive and finite or do not fit together, and for counts out of range.
@@ -26,9 +26,9 @@ struct SlideInShape {
   double bezel_thickness = 8e-3;
   double bezel_border = 6e-3;  ///< bezel and flange reach beyond the body by this, more than the clearance
   double clearance = 0.5e-3;
-  double overlap = 0.3e-3;        ///< of each tongue and the seated body; less than half the width
+  double overlap = 0.3e-3;        ///< of each tongue with the seated body; less than half the width
   int tongues_per_side = 2;       ///< 1 ... 100, one behind the other
-  std::int64_t triangles = 1000;  ///< of the unit, and of the bay without its tongues, about
+  std::int64_t triangles = 1000;  ///< approximate number for the unit, and for the bay without tongues
 };
 
 /// The unit: body and bezel, two closed components.
@@ -37,11 +37,11 @@ geometry::TriangleMesh make_slide_in_unit(const SlideInShape& shape);
 /// The bay without its tongues: walls, back and flange, open sheets.
 geometry::TriangleMesh make_bay(const SlideInShape& shape);
 
-/// The tongues, open sheets that rise from their wall and fall back to it. Each is a mesh of its own: first those at
-/// x < 0, then those at x > 0, each group from front to back.
+/// The tongues: open sheets that rise from their wall and fall back to it. Each tongue has a mesh of its own. The
+/// tongues at x < 0 come first, then those at x > 0, each group from front to back.
 std::vector<geometry::TriangleMesh> make_bay_tongues(const SlideInShape& shape);
 
-/// A bay with its tongues as one mesh, and the numbers of the triangles of the tongues, ascending.
+/// A bay with its tongues as one mesh, and the ascending triangle numbers of the tongues.
 struct BayWithTongues {
   geometry::TriangleMesh mesh;
   std::vector<std::int32_t> tongue_triangles;

@@ -1,11 +1,11 @@
 #pragma once
 
-/// A spur gear with a bore, and a base with a post for the bore: a flat seat with a round guide.
+/// A spur gear with a bore, and a base with a post for the bore. The base is a flat seat with a round guide.
 ///
-/// Teeth are involutes, 1 module high above the pitch circle and 1.25 modules deep below it; below the base circle the
-/// flanks are straight down to the root. Radii of bore and post are those of inscribed circles, as in `peg_and_hole.h`:
-/// the corners of the post lie farther out by the factor 1 / cos(π / segments). The gear turns freely if the bore's
-/// radius exceeds that of these corners. Meshes are closed, face outward, and have no triangle without area.
+/// Teeth are involutes, 1 module high above the pitch circle and 1.25 modules deep below it. Below the base circle the
+/// flanks are straight down to the root. Radii of bore and post are those of inscribed circles, as in `peg_and_hole.h`.
+/// The corners of the post lie farther out by the factor 1 / cos(π / segments). The gear turns freely if the bore's
+/// radius exceeds the radius of these corners. Meshes are closed, face outward, and have no triangle without area.
 ///
 /// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
 /// are not positive and finite or do not fit together, and for counts out of range.
@@ -26,9 +26,9 @@ struct GearShape {
   int rows = 1;                                         ///< cells along the width, 1 ... 10,000
 };
 
-/// Gear about z from z = 0 to z = width; the middle of a tooth is on the x axis. The bore has two facets for each
-/// tooth. 4 teeth (flank_points + 1) (rows + 1) triangles or, where the root circle lies within the base circle, 4
-/// teeth (flank_points + 2) (rows + 1).
+/// Gear about z from z = 0 to z = width. The middle of a tooth is on the x axis. The bore has two facets for each
+/// tooth. The gear has 4 teeth (flank_points + 1) (rows + 1) triangles or, if the root circle lies within the base
+/// circle, 4 teeth (flank_points + 2) (rows + 1).
 geometry::TriangleMesh make_spur_gear(const GearShape& gear);
 
 struct GearBaseShape {
@@ -36,11 +36,11 @@ struct GearBaseShape {
   double thickness = 5e-3;  ///< of the base
   double post_radius = 5e-3;
   double post_height = 15e-3;
-  double chamfer = 1e-3;  ///< at the end of the post, 45°; less than its radius and height
+  double chamfer = 1e-3;  ///< at the end of the post, 45°; less than the post's radius and height
   int segments = 64;      ///< facets around the post, a multiple of 8 up to 100,000
 };
 
-/// Base with its upper face, the seat, at z = 0 and a post about z on it. 10 segments triangles.
+/// Base with its upper face, the seat, at z = 0, and a post about z on the seat. 10 segments triangles.
 geometry::TriangleMesh make_gear_base(const GearBaseShape& base);
 
 }  // namespace glissade::shapes
