@@ -47,7 +47,7 @@ struct TrackedContact {
 /// nearest. Among equally near contacts, it continues the oldest.
 class ContactTracker {
  public:
-  /// `margin` (metres) is the margin of the simulation (`SlidingSimulation::margin`), or the largest of all margins if
+  /// `margin` (metres) is the margin of the simulation (`Sliding::margin`), or the largest of all margins if
   /// obstacles have margins of their own.
   explicit ContactTracker(double margin) : margin_(margin) {}
 
