@@ -52,8 +52,8 @@ enum class OverlapRule : std::uint8_t {
   /// a short straight path that leads no deeper into any body. Other obstacles stop the part as usual. If the part
   /// overlaps several obstacles, it leaves the deepest overlap first. If there is no such path, or if the path is
   /// blocked for twenty calls, the part follows the hand as far as the overlap gets no deeper. Once apart, part and
-  /// obstacle are an ordinary pair. The constructor still throws for a scripted part (`HeldPart::script`), for a part
-  /// that is no closed surface, and for a part that no inset (`inset_mesh`) frees.
+  /// obstacle are an ordinary pair. The constructor still throws for a scripted part (`HeldPart::script`), for a closed
+  /// part that no inset (`inset_mesh`) frees, and for an open part that is free on no side within two margins.
   kDepenetrate,
 };
 
