@@ -39,17 +39,17 @@ constexpr const char* kDemoDescription =
     "Run the whole system without hardware: a simulated glove carries a part to its seat";
 
 constexpr const char* kDemoFooter =
-    "Without --scene, the glove carries a window motor into a car door: through the access hole of the inner panel,\n"
-    "past the side-impact tube and back against the panel. With --fingers, it reaches for a motor on a bench, grasps\n"
-    "it with its fingers, carries it to its seat on a door module, lets go and withdraws.\n"
+    "Without --scene, the hand carries a window motor into a car door: through the access hole of the inner panel,\n"
+    "past the side-impact tube and back against the panel. With --fingers, the hand grasps a motor on a bench with\n"
+    "its fingers, carries it to its seat on a door module, lets go and withdraws.\n"
     "\n"
-    "The hand follows a script, which is scaled in time to --seconds, and yields to the forces that it receives. In\n"
-    "real time, glove and server communicate over LCM, 1000 times a second; where the machine does not keep up, the\n"
-    "wearer waits for what is visible, and the run takes longer. If the script of --scene has columns for\n"
-    "the joints, the hand takes hold of movable objects with its fingers; otherwise it holds the first one rigidly.\n"
-    "Other movable objects lie where they are, and objects with 'moves: FILE' follow their own scripts. With\n"
-    "--offline, everything runs in one thread on a simulated clock, with the same result every time. With --view, the\n"
-    "run starts when a browser has opened the page.\n"
+    "The hand follows a script, which --seconds scales in time, and yields to the forces on it. In real time, glove\n"
+    "and server communicate over LCM, 1000 times a second. If the machine is too slow, the wearer waits for the\n"
+    "visible parts, and the run takes longer. If the script of --scene has columns for the joints, the hand grasps\n"
+    "movable objects with its fingers. Otherwise it holds the first movable object rigidly. Other movable objects lie\n"
+    "still, and objects with 'moves: FILE' follow their own scripts. With --offline, everything runs in one thread on\n"
+    "a simulated clock, with the same result every time. With --view, the run starts when a browser has opened the\n"
+    "page.\n"
     "\n"
     "After the run, brute force checks every visible pose, i.e. every pose at which parts and hands with fingers were\n"
     "shown. If a pose collides, or if the part misses the goal of the scene, the exit code is 1.\n"
@@ -153,7 +153,7 @@ Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_
                                 });
   if (glove.waited() > kToldWaiting)
     say("glissade demo: the wearer waited " + fixed_text(in_seconds(glove.waited()), 1) +
-        " s in all for the visible hand and part, which lagged behind");
+        " s in total for the visible hand and part, which lagged behind");
   return session;
 }
 
@@ -194,14 +194,14 @@ void add_demo_command(CLI::App& app, Command& chosen) {
       ->capture_default_str()
       ->excludes(offline);
   CLI::Option* record = command->add_option("--record", options->record,
-                                            "File for a recording, which 'glissade replay' repeats to the bit");
+                                            "File for a recording, which 'glissade replay' repeats bit by bit");
   command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);
   add_view_option(*command, options->view_port)->excludes(offline);
   command
       ->add_option(
           "--report", options->report,
           "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, torque, "
-          "lag (distance from the visible part to the pose that the hand asks for), contacts and states")
+          "lag (distance from the visible part to the pose of the hand's target), contacts and states")
       ->take_last();
   add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -14,12 +14,11 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDoctorDescription = "Tell what this machine offers to a haptic loop, and what to change";
+constexpr const char* kDoctorDescription = "Check this machine for a haptic loop, and suggest changes";
 
 constexpr const char* kDoctorFooter =
-    "Looks at rights, scheduler, timers, power saving, kernel and network, and changes nothing. Each finding says "
-    "what\n"
-    "it means for haptics and, where something can be mended, the command. The exit code is 0 whatever is found.\n"
+    "Checks rights, scheduler, timers, power saving, kernel and network, and changes nothing. Each finding has its\n"
+    "meaning for haptics and, if possible, the command that improves it. The exit code is always 0.\n"
     "\n"
     "Examples:\n"
     "  glissade doctor\n"

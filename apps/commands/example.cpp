@@ -16,12 +16,12 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kExampleDescription = "Write scenes, trajectories and meshes to try the other commands with";
+constexpr const char* kExampleDescription = "Write scenes, trajectories and meshes for trying the other commands";
 
 constexpr const char* kExampleFooter =
-    "Writes some small files, with which the examples in the help of every command work. A file that is there already\n"
-    "is kept, if it has the same content; if it has another, nothing is written. For ten things of a household there\n"
-    "are a scene and a hand that grasps and lifts the thing, such as grasp_mug.yaml and grasp_mug_hand.csv.\n"
+    "Writes small files for the examples in the help of every command. The command keeps existing files with the same\n"
+    "content. If an existing file has another content, the command writes nothing. For each of ten household objects\n"
+    "there are a scene and a hand that grasps and lifts the object, such as grasp_mug.yaml and grasp_mug_hand.csv.\n"
     "\n"
     "Examples:\n"
     "  glissade example\n"
@@ -46,7 +46,7 @@ void add_example_command(CLI::App& app, Command& chosen) {
   const auto folder = std::make_shared<std::string>(".");
   CLI::App* command = app.add_subcommand("example", kExampleDescription);
   command->footer(kExampleFooter);
-  command->add_option("FOLDER", *folder, "Folder for the files; made if there is none")->capture_default_str();
+  command->add_option("FOLDER", *folder, "Folder for the files; created if it does not exist")->capture_default_str();
   command->callback([folder, &chosen] { chosen = [folder] { return write_examples(*folder); }; });
 }
 

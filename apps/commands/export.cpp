@@ -27,18 +27,18 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kExportDescription = "Write the meshes of a scene at one moment, for other programs";
+constexpr const char* kExportDescription = "Write the meshes of a scene at one time, for other programs";
 
 constexpr const char* kExportFooter =
     "FILE ends in\n"
     "  .obj  Wavefront OBJ: a group for each object, in double precision\n"
-    "  .glb  binary glTF: a node for each object, its vertices on a grid of 65,536 steps across it\n"
-    "Both are in metres and have the axes of the world. Nothing is simplified.\n"
+    "  .glb  binary glTF: a node for each object, with its vertices on a grid of 65,536 steps across the object\n"
+    "Both formats are in metres and have the axes of the world. Nothing is simplified.\n"
     "\n"
-    "Without --log, objects stand at their initial poses; with --at, objects that move on their own stand where their\n"
-    "trajectory ('moves') has them at this time. With --log, parts stand where they were visible S seconds after the\n"
-    "first tick of the recording, and so do hands with fingers; SCENE may then be left out, and must otherwise be the\n"
-    "recorded scene.\n"
+    "Without --log, objects have their initial poses. With --at, objects that move on their own have the poses of\n"
+    "their trajectory ('moves') at this time. With --log, parts and hands with fingers have the poses at which they\n"
+    "were visible S seconds after the first tick of the recording. SCENE is then optional, and must be the recorded\n"
+    "scene.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade export car_door.yaml --out door.obj\n"
@@ -128,8 +128,8 @@ void add_export_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<ExportOptions>();
   CLI::App* command = app.add_subcommand("export", kExportDescription);
   command->footer(std::string(kExportFooter) + kSceneFileHelp);
-  command->add_option("SCENE", options->scene, "Scene file (YAML); may be left out with --log");
-  command->add_option("--log", options->log, "Recording of a run, which 'glissade record' or 'demo --record' wrote");
+  command->add_option("SCENE", options->scene, "Scene file (YAML); optional with --log");
+  command->add_option("--log", options->log, "Recording of a run, from 'glissade record' or 'demo --record'");
   command->add_option("--at", options->at_s, "Time in seconds, see below");
   command->add_option("--out", options->out, "File to write, .obj or .glb")->required();
   add_strict_option(*command);

@@ -33,16 +33,14 @@ constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a 
 
 constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
-    "whose pose the glove reports; times increase. A ninth column, grip, may say from each row on whether the hand is\n"
-    "closed (1) or open (0): a hand that opens lets go, one that closes takes the nearest part. Instead, 22 columns "
-    "may\n"
-    "have the angles to which the wearer moves the fingers, thumb_roll_rad to wrist_abduction_rad, for a server that\n"
-    "lets fingers grasp ('glissade run --fingers'). Without --script, the hand follows the script of the car door\n"
-    "demonstration; with --fingers, that of the door module. The hand waits at the first pose until a haptic server "
-    "('glissade run') sends a command, and\n"
-    "yields to the forces that it receives. Where the server or what it shows is slow, the wearer waits, for three\n"
-    "seconds at most. The process ends at the end of the script, or with Ctrl-C. When the force\n"
-    "fades, the reason goes to standard error.\n"
+    "whose pose the glove reports. Times increase. An optional ninth column, grip, says whether the hand is closed\n"
+    "(1) or open (0) from this row on. A hand that opens lets go. A hand that closes takes the nearest part. Instead\n"
+    "of grip, 22 columns, thumb_roll_rad to wrist_abduction_rad, may have the angles to which the wearer moves the\n"
+    "fingers, for a server that lets fingers grasp ('glissade run --fingers'). Without --script, the hand follows the\n"
+    "script of the car door demonstration or, with --fingers, that of the door module.\n"
+    "The hand waits at the first pose until a haptic server ('glissade run') sends a command. It yields to the forces\n"
+    "on it. If the server or the visible parts are slow, the wearer waits for at most three seconds. The process ends\n"
+    "at the end of the script, or with Ctrl-C. When the force fades, the command prints the reason to standard error.\n"
     "Columns of --record: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a server:\n"
@@ -182,11 +180,11 @@ void add_glove_command(CLI::App& app, Command& chosen) {
       ->excludes("--script");
   command
       ->add_option("--frozen-ms", options->frozen_ms,
-                   "A pose that repeats to the bit for longer is an error of the tracker, and lets the force fade; "
+                   "A pose that repeats bit by bit for longer is an error of the tracker, and lets the force fade; "
                    "0: not checked")
       ->capture_default_str();
   CLI::Option* record = command->add_option("--record", options->record,
-                                            "File for the pose of the hand and the force of every period (CSV)");
+                                            "File for the pose of the hand and the force in every period (CSV)");
   command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

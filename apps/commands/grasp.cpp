@@ -50,19 +50,19 @@ constexpr const char* kGraspDescription =
 
 constexpr const char* kGraspFooter =
     "Hand trajectory: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz, the pose of the hand root (the end of the forearm at the\n"
-    "wrist), then 22 angles, thumb_roll_rad to wrist_abduction_rad, in the order of a CyberGlove. Several files are\n"
-    "several hands. The visible hand follows as far as objects allow: it never goes in, and closes tight round them.\n"
-    "A hand grasps a movable object when its contacts say so; no gesture is needed. The object then moves with the\n"
-    "palm, slides along what it touches, and stays where the hand opens. A touch without a grasp pushes it.\n"
+    "wrist), then 22 angles, thumb_roll_rad to wrist_abduction_rad, in the order of a CyberGlove. Each file is for\n"
+    "one hand. The visible hand follows as far as objects allow: it never penetrates objects, and closes tight round\n"
+    "them. A hand grasps a movable object according to its contacts, without a gesture. The object then moves with\n"
+    "the palm, slides along obstacles, and stays where the hand opens. A touch without a grasp pushes the object.\n"
     "\n"
     "Hand: a YAML file with the keys side (left or right), length_m and breadth_m; by default a right hand of 0.183 m\n"
-    "and 0.084 m. One file is for all hands.\n"
+    "and 0.084 m. A single file is for all hands.\n"
     "\n"
-    "Output: one row per millisecond and hand with the visible posture, the segments that touch, what kind of grasp\n"
-    "they make (none, push, precision, power) and of which object, the pose of this object, and how hard the tips of\n"
-    "the fingers press. --objects writes one row per millisecond and movable object with its pose and the wrench on\n"
-    "the hands. If both go to files, the standard output says how long each hand held something, or why it held\n"
-    "nothing, and how far each part came.\n"
+    "Output: one row per millisecond and hand. A row has the visible posture, the touching segments, the type of\n"
+    "grasp (none, push, precision, power), the grasped object with its pose, and the forces of the fingertips.\n"
+    "--objects writes one row per millisecond and movable object with its pose and the wrench on the hands. If both\n"
+    "tables go to files, the standard output has the time for which each hand held an object, or why it held nothing,\n"
+    "and the displacement of each part.\n"
     "All columns: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
@@ -325,7 +325,7 @@ void add_grasp_command(CLI::App& app, Command& chosen) {
       ->add_option("--hand-trajectory", options->trajectories,
                    "Trajectory of a hand (CSV), see below; one for each hand")
       ->required();
-  command->add_option("--hand", options->hands, "Whose hand (YAML), see below");
+  command->add_option("--hand", options->hands, "Hand file (YAML), see below");
   add_sliding_options(*command, options->sliding);
   command->add_option("--out", options->out, "CSV file for the hands (-: standard output)")->capture_default_str();
   command->add_option("--objects", options->objects, "CSV file for the movable objects, see below");

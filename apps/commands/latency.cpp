@@ -19,27 +19,24 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kLatencyDescription =
-    "Measure how long the force takes from a sample of the glove, stage by stage";
+constexpr const char* kLatencyDescription = "Measure the time from a sample of the glove to its force, stage by stage";
 
 constexpr const char* kLatencyFooter =
-    "A simulated glove presses a box on a plate. It measures 997 times a second, the haptic loop ticks 1000 times, so\n"
-    "its samples fall on every moment of a tick. The stages of a sample:\n"
+    "A simulated glove presses a box on a plate. The glove measures 997 times a second and the haptic loop ticks 1000\n"
+    "times, so the samples fall on every moment of a tick. The stages of a sample:\n"
     "\n"
     "  transport          from the measurement until the haptic loop may read the sample\n"
     "  wait for the tick  until the next tick starts and reads it: half a tick, 500 us, on average\n"
     "  computation        until the tick gives its command to the device: the forces of all contacts, the envelope\n"
-    "  way back           until the command is at the driver of the glove: the send thread takes it, the link brings "
-    "it\n"
-    "  sample to force    all of this\n"
+    "  way back           until the command reaches the driver of the glove, through the send thread and the link\n"
+    "  sample to force    the sum of these stages\n"
     "\n"
     "The glove is a driver in the same process, a thread behind memq://, or a second process behind udpm://, at an\n"
-    "address of its own that stays on this machine. All take turns, on the machine as it is ('idle') and beside a "
-    "load\n"
-    "('loaded'). The bare loop is an empty loop of the same period and priority beside the haptic loop: what it is "
-    "late,\n"
-    "the system makes late. The UDP round trip is that of two datagrams of the same sizes between two processes with\n"
-    "blocking sockets. The targets are goals of the library; the exit code is 0 whatever is measured.\n"
+    "address of its own that stays on this machine. The three take turns, without a load ('idle') and with a load on\n"
+    "the machine ('loaded'). The bare loop is an empty loop of the same period and priority beside the haptic loop.\n"
+    "Its lateness is the lateness of the system. The UDP round trip is that of two datagrams of the same sizes\n"
+    "between two processes with blocking sockets. The targets are goals of the library. The exit code is 0 for any\n"
+    "result.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"

@@ -21,14 +21,14 @@ constexpr const char* kLogFooter =
     "  glissade demo --seconds 3 --record shown.lcmlog && glissade log to-mcap shown.lcmlog shown.mcap";
 
 constexpr const char* kTablesFooter =
-    "LOG is what 'glissade record', 'glissade demo --record', a flight recorder or lcm-logger wrote. The tables are\n"
-    "  ticks.csv   when each tick of the haptic loop started, and how long it took\n"
+    "LOG is a file of 'glissade record', 'glissade demo --record', a flight recorder or lcm-logger. The tables are\n"
+    "  ticks.csv   start time and duration of each tick of the haptic loop\n"
     "  parts.csv   ghost and visible pose of each part, with its state\n"
-    "  hands.csv   force on each hand, and why it is reduced\n"
+    "  hands.csv   force on each hand, with the reason of a reduced force\n"
     "  gloves.csv  pose, velocity and joint angles that each glove measured\n"
-    "A table of which the log has nothing is left out. All columns: docs/file_formats.md in the sources.\n"
-    "If the log is damaged, the tables hold everything before the damage, and the exit code is 1. So it is if events\n"
-    "cannot be read because their bytes have changed: they are left out, and counted.\n"
+    "Empty tables are not written. All columns: docs/file_formats.md in the sources.\n"
+    "If the log is damaged, the tables have everything before the damage, and the exit code is 1. Events that cannot\n"
+    "be read because their bytes have changed are omitted and counted, and the exit code is 1.\n"
     "\n"
     "Examples:\n"
     "  glissade demo --seconds 3 --record log.lcmlog && glissade log to-csv log.lcmlog tables\n"
@@ -38,16 +38,15 @@ constexpr const char* kMcapFooter =
     "FILE can be opened with Foxglove and PlotJuggler. Its topics are\n"
     "  /tf        poses of visible parts (part_0, ...), ghosts (ghost_0, ...), hands (hand_0, ...) and their segments\n"
     "             (hand_0_palm, ...) in the world\n"
-    "  /scene     the meshes of the scene, with at most about 100,000 triangles, their names, ghosts, and hands\n"
+    "  /scene     meshes of the scene with at most about 100,000 triangles, their names, ghosts, and hands\n"
     "  /contacts  contacts that push, and the force on each hand, 10 mm for each newton; at most 60 a second\n"
     "  /part_0    state, contacts, position and lag of each part\n"
-    "  /hand_0    force, torque, energy of each hand, and why its force is reduced\n"
-    "  /loop      when each tick of the haptic loop started, and how long it took\n"
-    "A log without the beginning of a run, such as one of lcm-logger, has no /scene. All\n"
-    "values: docs/file_formats.md in the sources. If the log is damaged, the file holds everything before the damage,\n"
-    "and the exit code is 1. So it is if events cannot be read because their bytes have changed: they are left out, "
-    "and\n"
-    "counted.\n"
+    "  /hand_0    force, torque and energy of each hand, with the reason of a reduced force\n"
+    "  /loop      start time and duration of each tick of the haptic loop\n"
+    "A log without the beginning of a run, such as a log of lcm-logger, has no /scene. All values:\n"
+    "docs/file_formats.md in the sources.\n"
+    "If the log is damaged, the file has everything before the damage, and the exit code is 1. Events that cannot be\n"
+    "read because their bytes have changed are omitted and counted, and the exit code is 1.\n"
     "\n"
     "Examples:\n"
     "  glissade demo --offline --seconds 4 --record scene.lcmlog && glissade log to-mcap scene.lcmlog scene.mcap\n"
@@ -66,7 +65,7 @@ int write_tables(const LogOptions& options) {
   for (const LogTable& table : tables)
     std::cout << table.file << ": " << table.rows << (table.rows == 1 ? " row\n" : " rows\n");
   if (!damage.empty()) throw std::runtime_error(damage);
-  if (tables.empty()) throw std::invalid_argument(options.log + ": has no channel from which a table can be made");
+  if (tables.empty()) throw std::invalid_argument(options.log + ": has no channel for a table");
   return 0;
 }
 
@@ -84,21 +83,21 @@ int write_mcap(const LogOptions& options) {
 
 void add_log_command(CLI::App& app, Command& chosen) {
   const auto options = std::make_shared<LogOptions>();
-  CLI::App* command = app.add_subcommand("log", "Make other files of event logs");
+  CLI::App* command = app.add_subcommand("log", "Convert event logs to other files");
   command->require_subcommand(1);
   command->footer(kLogFooter);
-  CLI::App* tables = command->add_subcommand("to-csv", "Write tables (CSV) of an event log of LCM");
+  CLI::App* tables = command->add_subcommand("to-csv", "Convert an event log of LCM to tables (CSV)");
   tables->footer(kTablesFooter);
   tables->add_option("LOG", options->log, "Event log of LCM")->required();
-  tables->add_option("FOLDER", options->folder, "Folder for the tables; made if there is none")->required();
+  tables->add_option("FOLDER", options->folder, "Folder for the tables; created if it does not exist")->required();
   tables->callback([options, &chosen] { chosen = [options] { return write_tables(*options); }; });
 
   CLI::App* mcap =
-      command->add_subcommand("to-mcap", "Write an event log of LCM as MCAP, for Foxglove and PlotJuggler");
+      command->add_subcommand("to-mcap", "Convert an event log of LCM to MCAP, for Foxglove and PlotJuggler");
   mcap->footer(kMcapFooter);
   mcap->add_option("LOG", options->log, "Event log of LCM")->required();
   mcap->add_option("FILE", options->file, "File to write")->required();
-  mcap->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
+  mcap->add_option("--scene", options->scene, "Scene file instead of the recorded one");
   add_strict_option(*mcap);
   mcap->callback([options, &chosen] { chosen = [options] { return write_mcap(*options); }; });
 }

@@ -25,18 +25,19 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kReplayDescription = "Repeat a recorded run to the bit, or play its gloves to a server";
+constexpr const char* kReplayDescription =
+    "Repeat a recorded run bit by bit, or send the states of its gloves to a server";
 
 constexpr const char* kReplayFooter =
-    "LOG is what 'glissade record' or 'glissade demo --record' wrote; of joined logs, all runs are repeated. Offline,\n"
-    "each tick of the haptic loop and each answer of the simulation takes in what it took in then, and must give the\n"
-    "same bytes. The exit code is 1 if any differs, which the error names, or if the log is damaged: then everything\n"
-    "before the damage is repeated. The scene must not have changed.\n"
+    "LOG is a file of 'glissade record' or 'glissade demo --record'. If it is several joined logs, all runs are\n"
+    "repeated. Offline, each tick of the haptic loop and each answer of the simulation takes the recorded input and\n"
+    "must give the same bytes. If a result differs, the error names it, and the exit code is 1. If the log is\n"
+    "damaged, everything before the damage is repeated, and the exit code is 1. The scene must not have changed.\n"
     "\n"
-    "With --lcm, it sends the states of the recorded gloves to a server that runs elsewhere. They wait for its first\n"
-    "command, take the recorded time, and do not yield to forces. Any log with GLOVE_INFO and GLOVE_STATE will do,\n"
-    "also one of lcm-logger.\n"
-    "With --view, the run is shown in a browser at the pace at which it was recorded.\n"
+    "With --lcm, the command sends the states of the recorded gloves to another server. The gloves wait for the first\n"
+    "command of this server, take the recorded time, and do not yield to forces. Any log with GLOVE_INFO and\n"
+    "GLOVE_STATE can be used, also a log of lcm-logger.\n"
+    "With --view, a browser shows the run at the recorded pace.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
@@ -135,14 +136,14 @@ void add_replay_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("replay", kReplayDescription);
   command->footer(kReplayFooter);
   command->add_option("LOG", options->log, "Event log of LCM")->required();
-  CLI::Option* scene = command->add_option("--scene", options->scene, "Scene file, in place of the recorded name");
+  CLI::Option* scene = command->add_option("--scene", options->scene, "Scene file instead of the recorded one");
   add_lcm_options(*command, options->lcm);
   command->get_option("--lcm")->excludes(scene);
   CLI::Option* view = add_view_option(*command, options->view_port);
   view->excludes("--lcm");
   command
       ->add_option("--report", options->report,
-                   "Folder for a page, index.html, as that of 'glissade run', of the last minute of the recording")
+                   "Folder for a page, index.html, as from 'glissade run', of the last minute of the recording")
       ->take_last()
       ->excludes(view)
       ->excludes("--lcm");

@@ -36,20 +36,19 @@ constexpr const char* kRunDescription = "Run the haptic server: receive glove st
 
 constexpr const char* kRunFooter =
     "The parts are the movable objects of the scene. When the first state of a glove arrives on the channel\n"
-    "GLOVE_STATE, its hand grasps a part rigidly; the part stays at its pose in the scene. The first glove takes the\n"
-    "first part, the second glove the second part or, if there is only one part, the same; --hold says otherwise.\n"
-    "A hand that opens lets go, and one that closes takes the nearest part, if the glove tells its grip. Parts that "
-    "no\n"
-    "hand holds lie still. With --fingers, hands take hold of what their fingers close round, without any gesture;\n"
-    "the joint angles of the gloves move the fingers, which feel what stops them. Objects with 'moves: FILE' follow\n"
-    "their own scripts, from the first state on.\n"
-    "Commands to the gloves go out on GLOVE_COMMAND. The state of every tick, i.e. of every cycle of the haptic loop,\n"
-    "goes out on HAPTIC_STATE, for viewers and loggers. When a force fades, because a glove's state is old for\n"
-    "instance, the reason goes to standard error: docs/safety.md in the sources.\n"
+    "GLOVE_STATE, its hand grasps a part rigidly. The part stays at its pose in the scene. The first glove takes the\n"
+    "first part. The second glove takes the second part or, if there is only one part, the same part. --hold chooses\n"
+    "other parts. If the glove reports its grip, a hand that opens lets go, and a hand that closes takes the nearest\n"
+    "part. Parts that no hand holds lie still. With --fingers, hands grasp the parts round which their fingers close,\n"
+    "without any gesture. The joint angles of the gloves move the fingers, and the fingers feel contacts. Objects\n"
+    "with 'moves: FILE' follow their own scripts, from the first state on.\n"
+    "The command sends commands to the gloves on GLOVE_COMMAND, and the state of every tick, i.e. of every cycle of\n"
+    "the haptic loop, on HAPTIC_STATE for viewers and loggers. When a force fades, for example because a glove's\n"
+    "state is old, the command prints the reason to standard error (docs/safety.md in the sources).\n"
     "\n"
     "The run ends --seconds after the first glove state, or with Ctrl-C, and prints a summary. Then brute force\n"
-    "checks the visible poses, i.e. the poses at which parts and hands with fingers were shown; without --seconds,\n"
-    "only those of the last minute are checked. If a pose collides, the exit code is 1.\n"
+    "checks the visible poses, i.e. the poses at which parts and hands with fingers were shown. Without --seconds, it\n"
+    "checks only those of the last minute. If a pose collides, the exit code is 1.\n"
     "Keys of --json: docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a simulated glove:\n"
@@ -59,16 +58,14 @@ constexpr const char* kRunFooter =
     "  glissade glove --script square_peg_script.csv & glissade glove --device 2 & glissade run square_peg.yaml "
     "--device 1 2 --hold 2= --seconds 4";
 
-constexpr const char* kRecordDescription = "Run the haptic server and record all of it, for 'glissade replay'";
+constexpr const char* kRecordDescription = "Run the haptic server and record the run, for 'glissade replay'";
 
 constexpr const char* kRecordFooter =
-    "Runs as 'glissade run' does. LOG is an event log of LCM: lcm-logplayer and lcm-logplayer-gui play it. It holds "
-    "what\n"
-    "each tick and each answer of the simulation took in and gave out, and when; no command to a glove is in it, so\n"
-    "playing it moves no glove. 'glissade replay LOG' repeats the run to the bit, 'glissade replay LOG --lcm URL' "
-    "leads\n"
-    "a server as the recorded gloves did, and 'glissade log to-csv LOG FOLDER' makes tables of it. An older LOG is\n"
-    "replaced only with --overwrite.\n"
+    "Runs as 'glissade run' does. LOG is an event log of LCM, which lcm-logplayer and lcm-logplayer-gui can play. It\n"
+    "has the time, inputs and results of each tick and each answer of the simulation. It has no commands to gloves,\n"
+    "so playing it moves no glove. 'glissade replay LOG' repeats the run bit by bit. 'glissade replay LOG --lcm URL'\n"
+    "sends the states of the recorded gloves to a server. 'glissade log to-csv LOG FOLDER' makes tables of the log.\n"
+    "The command replaces an older LOG only with --overwrite.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a simulated glove:\n"
     "  glissade glove --script square_peg_script.csv & glissade record peg.lcmlog square_peg.yaml --seconds 4\n"
@@ -165,7 +162,7 @@ class Announcer {
                 " at " + url_ + (settings_.view_port ? "; the page of --view is there then" : ""));
     }
     if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
-      line_.say(prefix_ + "packets are refused: they come from elsewhere, or were made with another key");
+      line_.say(prefix_ + "packets are refused: they come from another machine or interface, or have another key");
     }
     if (news.ticks > 0 && !std::exchange(said_that_it_holds_, true)) {
       line_.say(prefix_ + held_text(settings_, scene_));
@@ -232,14 +229,14 @@ void add_options(CLI::App& command_line, RunOptions& options) {
       ->check(glove_number())
       ->capture_default_str();
   command_line.add_option("--hold", options.holds,
-                          "GLOVE=PART: the part that the hand in this glove takes; GLOVE= takes none");
+                          "GLOVE=PART: the part that the hand in this glove takes; GLOVE= for none");
   CLI::Option* fingers = command_line.add_flag(
-      "--fingers", options.fingers, "Hands take hold with their fingers, by the joint angles that the gloves measure");
+      "--fingers", options.fingers, "Hands grasp with their fingers, by the joint angles that the gloves measure");
   fingers->excludes("--hold");
   command_line
       .add_option("--hand", options.hand_files,
-                  "Whose hand (YAML), one for all gloves or one for each: side, length_m, breadth_m; default: a right "
-                  "or left hand, as the glove tells, of 0.183 m and 0.084 m")
+                  "Hand files (YAML), one for all gloves or one for each: side, length_m, breadth_m; default: a right "
+                  "or left hand, as the glove reports, of 0.183 m and 0.084 m")
       ->needs(fingers);
   add_sliding_options(command_line, options.choice);
   add_strict_option(command_line);
@@ -247,22 +244,22 @@ void add_options(CLI::App& command_line, RunOptions& options) {
       .add_option("--seconds", options.seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();
   command_line.add_option("--rate-hz", options.rate_hz,
-                          "Rate of the haptic loop, 500 to 5000 ticks a second; default: that of the glove");
+                          "Rate of the haptic loop, 500 to 5000 ticks a second; default: the rate of the glove");
   command_line
       .add_option("--spin-us", options.spin_us,
-                  "Time before each tick, 0 to 500 us, for which the haptic loop occupies a processor instead of "
-                  "sleeping, so that it starts on time; at most half of its period")
+                  "Time before each tick, 0 to 500 us, for which the haptic loop polls the clock instead of "
+                  "sleeping, so that the tick starts on time; at most half of the period")
       ->capture_default_str();
   command_line.add_option("--flight-recorder", options.record.flight,
-                          "File for the last seconds: written when a glove fails, when the simulation fails, and on "
-                          "SIGUSR1; later ones get a number");
+                          "File for the last seconds of the run: written when a glove or the simulation fails, and on "
+                          "SIGUSR1; later files get a number");
   add_view_option(command_line, options.view_port);
   command_line.add_flag("--json", options.json, "Print the summary as JSON");
   command_line.add_flag("--verbose", options.verbose, kVerboseHelp);
   command_line.add_option(
       "--report", options.report,
       "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, "
-      "torque, lag (distance from the visible part to the pose that the hand asks for), contacts "
+      "torque, lag (distance from the visible part to the pose of the hand's target), contacts "
       "and states");
 }
 

@@ -102,7 +102,7 @@ std::vector<std::string> doubtful_sizes(const Scene& file, const HapticScene& sc
     if (kDoubtfulRatio * size < around.smallest_m) others = "at least " + rounded_text(around.smallest_m);
     if (others.empty()) continue;
     sentences.push_back(file.source + ": object " + in_quotes(part.name) + " is " + across(size) +
-                        ", and everything around it " + others + " m: one of both has the wrong 'scale'");
+                        ", and everything around it " + others + " m: one of the two has the wrong 'scale'");
   }
   return sentences;
 }

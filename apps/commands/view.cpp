@@ -32,13 +32,12 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kViewDescription = "Show a running scene in a browser, from what a haptic server publishes";
+constexpr const char* kViewDescription = "Show a running scene in a browser, from the states of a haptic server";
 
 constexpr const char* kViewFooter =
-    "Listens to HAPTIC_STATE, which 'glissade run', 'record' and 'demo' publish at their LCM address, and serves a "
-    "page\n"
-    "on this machine. SCENE must be the scene of the server; without it, that of 'glissade demo' is shown. Nothing is\n"
-    "sent to the server, so that looking on disturbs no hand. 'run', 'demo' and 'replay' show themselves with --view.\n"
+    "Receives HAPTIC_STATE, which 'glissade run', 'record' and 'demo' publish at their LCM address, and serves a page\n"
+    "on this machine. SCENE must be the scene of the server. The default is the scene of 'glissade demo'. The command\n"
+    "sends nothing to the server, so it disturbs no hand. 'run', 'demo' and 'replay' have their own page with --view.\n"
     "\n"
     "Examples, with the files of 'glissade example'; a demonstration publishes:\n"
     "  glissade demo --seconds 10 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 10\n"
@@ -64,7 +63,8 @@ struct Received {
 
 /// What is wrong with the states of the server; empty if nothing is.
 std::string doubt_of(Received& received) {
-  if (received.has_unreadable) return "states of the server cannot be read: another version of glissade sends them";
+  if (received.has_unreadable)
+    return "the states of the server cannot be read: they come from another version of glissade";
   const std::lock_guard lock(received.mutex);
   return received.doubt;
 }
@@ -102,7 +102,7 @@ int view(const ViewOptions& options) {
     server.push(*state);
   });
   StatusLine line;
-  line.say("glissade view: " + server.url() + " shows what a server at " + options.lcm.url + " publishes; Ctrl-C ends");
+  line.say("glissade view: " + server.url() + " shows the states of a server at " + options.lcm.url + "; Ctrl-C ends");
   bool has_warned = false;
   const auto start = std::chrono::steady_clock::now();
   const auto is_over = [&] {
@@ -131,7 +131,7 @@ void add_view_command(CLI::App& app, Command& chosen) {
   command
       ->add_option_function<std::string>(
           "--port", [options](const std::string& text) { options->port = parse_port("--port", text); },
-          "Port on 127.0.0.1 for the page; 0: any that is free")
+          "Port on 127.0.0.1 for the page; 0: any free port")
       ->type_name("PORT")
       ->default_str(std::to_string(kViewPort));
   command->add_option("--seconds", options->seconds, "Duration in seconds; 0: until Ctrl-C")
@@ -141,7 +141,7 @@ void add_view_command(CLI::App& app, Command& chosen) {
       ->check(glove_number())
       ->capture_default_str();
   CLI::Option* fingers = command->add_flag("--fingers", options->fingers, "The server runs with --fingers: show hands");
-  command->add_option("--hand", options->hand_file, "Whose hands (YAML), as for 'glissade run'")->needs(fingers);
+  command->add_option("--hand", options->hand_file, "Hand file (YAML), as for 'glissade run'")->needs(fingers);
   add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return view(*options); }; });
 }
