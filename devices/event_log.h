@@ -1,6 +1,6 @@
 #pragma once
 
-/// Recorded messages in files of LCM's event log format, which `lcm-logger` writes and `lcm-logplayer` reads too.
+/// Recorded messages in LCM's event log format, the format of `lcm-logger` and `lcm-logplayer`.
 
 #include <chrono>
 #include <cstdint>
@@ -16,7 +16,7 @@ namespace glissade::devices {
 
 /// One message and the time of its recording.
 struct LogEvent {
-  std::chrono::microseconds time{0};  ///< since an epoch that is the same for all events of a log
+  std::chrono::microseconds time{0};  ///< since an epoch, the same for all events of a log
   std::string channel;
   std::vector<std::uint8_t> message;
 

@@ -30,7 +30,7 @@ struct LimitReasons {
   bool force_limited = false;   ///< the force was scaled down to the device's maximum
   bool torque_limited = false;  ///< the torque was scaled down to the device's maximum
   bool joints_limited = false;  ///< at least one joint torque was clamped
-  bool rate_limited = false;    ///< force or torques may not change as fast as wanted
+  bool rate_limited = false;    ///< force or torques would change faster than the device's rates
   bool power_limited = false;   ///< the wrench was scaled down to the largest power
   bool mean_limited = false;    ///< the force was scaled down because its mean is near the largest mean
   bool energy_limited = false;  ///< the wrench was scaled down because too little energy is left
@@ -186,7 +186,7 @@ class GloveDevice {
  public:
   virtual ~GloveDevice() = default;
 
-  /// Does not change during the life of the device.
+  /// The descriptor, which never changes.
   virtual const DeviceDescriptor& descriptor() const noexcept = 0;
 
   /// Copies the newest state to `newest` and returns true. Until the first state has arrived, leaves `newest` unchanged

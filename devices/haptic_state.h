@@ -1,8 +1,8 @@
 #pragma once
 
 /// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the forces, for viewers and
-/// recorders. A part is an object that hands move. Frames: W world; V visible part, the pose at which the part is
-/// shown; G ghost, where the part would be if nothing were in the way.
+/// recorders. A part is an object that hands move. Frames: W world; V visible part, i.e. the displayed pose of the
+/// part; G ghost, i.e. the pose that the part would have if nothing were in the way.
 
 #include <array>
 #include <chrono>
@@ -44,10 +44,10 @@ PartState part_state_from_number(std::int32_t number) noexcept;
 inline constexpr std::size_t kHapticParts = 4;
 inline constexpr std::size_t kHapticHands = 4;
 
-/// Maximum number of contacts in a `HapticState`: without friction, six of a single part push at once.
+/// Maximum number of contacts in a `HapticState`. Without friction, at most six contacts of a single part push at once.
 inline constexpr std::size_t kHapticContacts = 24;
 
-/// Maximum number of patches in a `HapticState`: a part in a corner has three.
+/// Maximum number of patches in a `HapticState`. A part in a corner has three patches.
 inline constexpr std::size_t kHapticPatches = 8;
 
 /// A part after one haptic tick.
@@ -101,7 +101,7 @@ struct HapticContact {
 struct HapticPatch {
   std::int32_t part = 0;
   std::int32_t contact_count = 0;                 ///< number of contacts that push
-  Eigen::Vector3f p_V = Eigen::Vector3f::Zero();  ///< centre of their forces in the part's frame, metres
+  Eigen::Vector3f p_V = Eigen::Vector3f::Zero();  ///< centre of the contact forces in the part's frame, metres
   Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
   float extent = 0.0F;                            ///< distance from `p_V` to the farthest of these contacts, metres
 };
@@ -113,7 +113,7 @@ struct HapticState {
   std::chrono::nanoseconds time{0};             ///< time of the tick, on the haptic loop's clock
   std::chrono::nanoseconds contact_set_age{0};  ///< time since the ghost poses of the set; 0 before the first set
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
-  std::chrono::nanoseconds lateness{0};         ///< `time` less the time for which the tick was scheduled
+  std::chrono::nanoseconds lateness{0};         ///< `time` minus the scheduled time of the tick
   std::chrono::nanoseconds last_duration{0};    ///< duration of the previous tick until its commands were handed over
   std::int32_t part_count = 1;
   std::int32_t hand_count = 1;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Publishes the state of every tick, i.e. of every cycle of the 1 kHz haptic loop, to viewers and recorders on the LCM
-/// channel HAPTIC_STATE, without delaying the loop.
+/// Publishes the state of every tick, i.e. of every cycle of the 1 kHz haptic loop, on the LCM channel HAPTIC_STATE
+/// without delaying the loop. Viewers and recorders receive it.
 
 #include <chrono>
 #include <cstddef>

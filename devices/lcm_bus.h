@@ -33,9 +33,9 @@ struct LcmKey {
 /// owner.
 LcmKey read_lcm_key(const std::string& path);
 
-/// Sends and receives raw messages by channel. One thread, started by the first subscription, receives for all
-/// subscribers. This receive thread inherits the scheduling policy of the thread that subscribes first. Channel names
-/// are 1 to 15 characters of A–Z, 0–9 and `_`.
+/// Sends and receives raw messages by channel. The first subscription starts one receive thread for all subscribers.
+/// The receive thread inherits the scheduling policy of the thread that subscribes first. Channel names are 1 to 15
+/// characters of A–Z, 0–9 and `_`.
 ///
 /// Thread-safety: any number of threads may subscribe and publish at once. All functions may block and allocate, so do
 /// not call them in a real-time thread.
@@ -46,8 +46,8 @@ class LcmBus {
   /// subscription.
   using Handler = std::function<void(std::span<const std::uint8_t> message)>;
 
-  /// A subscription, which its destructor ends: once the destructor has returned, the handler is not running and will
-  /// not run again. The bus must outlive the subscription.
+  /// A subscription. Its destructor ends the subscription: after the destructor has returned, the handler does not run.
+  /// The bus must outlive the subscription.
   class Subscription;
 
   /// Throws std::invalid_argument, naming the URL, when the URL is not a correct memq or udpm address, or when this
@@ -66,7 +66,7 @@ class LcmBus {
   [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
 
   /// Sends `message`; returns false when the operating system does not accept it. Over memq, a message on a channel
-  /// without subscribers is lost at once. Throws std::invalid_argument when the channel's name is not allowed.
+  /// without subscribers is lost. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
   /// Number of packets dropped so far because they came from another machine or interface, were not a packet of a

@@ -64,8 +64,8 @@ struct LcmGloveOptions {
   std::int64_t device = kDefaultDevice;  ///< number of the glove; states of all other gloves are rejected
   /// `GloveInfo::session` of the glove that has the lease at the start; 0: the first sender gets the lease.
   std::int64_t glove_session = 0;
-  /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing, whereas waking
-  /// the send thread would cost the haptic thread a system call for every command.
+  /// Period at which the send thread polls for a new command. Polling costs the haptic thread nothing. Waking the send
+  /// thread would cost the haptic thread a system call for every command.
   std::chrono::nanoseconds send_period{std::chrono::microseconds(250)};
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };

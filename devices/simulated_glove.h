@@ -35,16 +35,16 @@ struct TimedAngles {
 /// least one entry, and ascending times. Cost O(log n).
 hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
 
-/// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script,
-/// about as stiff as a relaxed to lightly tensed human arm. A steady force F displaces the hand from the script by
-/// F / stiffness.
+/// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script.
+/// The stiffness is that of a relaxed to slightly tensed human arm. A steady force F displaces the hand from the script
+/// by F / stiffness.
 struct SimulatedGloveParameters {
   double mass = 0.8;                  ///< effective at the hand root: hand, forearm and the device's arm; kg
   double rotational_inertia = 0.003;  ///< about every axis of the hand root; kg m²
   double arm_damping = kArmDamping;   ///< viscous friction of the grounded arm; N s/m
   double arm_rotational_damping = kArmRotationalDamping;  ///< Nm s/rad
   double wearer_stiffness = 400.0;                        ///< N/m
-  double wearer_damping = 35.0;                           ///< acts on the velocity relative to the script; N s/m
+  double wearer_damping = 35.0;                           ///< damps the velocity relative to the script; N s/m
   double wearer_rotational_stiffness = 4.0;               ///< Nm/rad
   double wearer_rotational_damping = 0.22;                ///< Nm s/rad
   double finger_stiffness = 0.5;                          ///< Nm/rad
@@ -63,8 +63,8 @@ struct SimulatedGloveParameters {
   std::vector<std::chrono::nanoseconds> grip_changes{};
 };
 
-/// Limits of the simulated glove: 20 N, 1 Nm, 4000 N/m and 1000 updates per second, like the stronger grounded arms in
-/// the literature. The joint limits are the limits of the human hand.
+/// Descriptor of the simulated glove, with the limits of stronger grounded arms in the literature: 20 N, 1 Nm, 4000 N/m
+/// and 1000 updates per second. The joint limits are the limits of the human hand.
 DeviceDescriptor simulated_glove_descriptor();
 
 /// The simulation, by semi-implicit Euler in steps of at most 1 ms. Allocates only at construction. Not thread-safe.

@@ -18,7 +18,7 @@
 namespace glissade::grasping {
 
 enum class ClaspState : std::uint8_t {
-  kClasping,  ///< the posture touches nothing, and follows the target as far as objects allow
+  kClasping,  ///< the posture is collision-free, and follows the target as far as objects allow
   /// The chain has not been free since the start, since a motion of the cart, or since an object was placed inside it.
   /// The posture stays as it is, and gives no forces. The clasp begins once the target is free.
   kWaiting,
@@ -76,8 +76,8 @@ class Clasp {
   /// Places an object that has touched nothing on its path, as the caller knows.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
   /// Places the chain, which moves with an object that it holds. The caller knows that the chain has touched nothing on
-  /// its path. In the next call of `advance`, every link near an object touches it unless the link's target leads away,
-  /// because a root that is placed has no deeper target.
+  /// its path. A placed root has no deeper target. So in the next call of `advance`, every link near an object touches
+  /// the object unless the link's target leads away.
   void carry(const Posture& posture);
 
   /// Moves the chain towards the target. Flex values beyond their limits count as the limits. Ignores a target that is

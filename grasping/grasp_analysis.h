@@ -69,8 +69,8 @@ class GraspAnalysis {
   explicit GraspAnalysis(const HandModel& hand, std::size_t fixed_bodies = 0)
       : meaning_(hand.meaning), first_part_(static_cast<std::int32_t>(fixed_bodies)) {}
 
-  /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity. As long as the hand
-  /// holds the body with the number `held`, no other body counts.
+  /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity. If `held` is not −1,
+  /// the hand holds the body with this number, and no other body counts.
   const Grasp& update(std::span<const LinkContact> contacts, double milliseconds,
                       const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
@@ -90,7 +90,7 @@ class GraspAnalysis {
     double level = 0.0;                             // how much of the last milliseconds it touched, 0 to 1
     Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  // unit, from the object to the segment, the mean of them
 
-    /// The sum of the normals of this moment is zero if the segment does not touch.
+    /// `sum_W` is the sum of the present normals, zero if the segment does not touch.
     void follow(const Eigen::Vector3d& sum_W, double share);
   };
 
@@ -106,7 +106,8 @@ class GraspAnalysis {
   GraspForm precision_form(const Grasp& grasp) const;
   bool carries(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
   bool are_opposed(const Grasp& grasp) const;
-  /// Whether the grasp so far is one of this form of this body: it ends later than it would begin.
+  /// Whether the present grasp has this form and this body. A present grasp ends at a wider limit than a new grasp
+  /// begins.
   bool had(GraspForm form, std::int32_t object) const { return grasp_.form == form && grasp_.object == object; }
   std::optional<Eigen::Vector3d> normal(std::int32_t object, const SegmentMeaning& segment) const;
 

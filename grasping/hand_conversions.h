@@ -63,14 +63,14 @@ using OpenXrJoints = std::array<OpenXrJoint, kOpenXrJoints>;
 /// the middle of the middle finger's metacarpal. Real-time safe; about 2 µs.
 OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
 
-/// The pose of `hand` that is nearest to tracked joints. Reads the rotations of the joints and the position of the
-/// wrist, so the lengths of the tracked hand's bones do not matter. Each flex value is the least-squares angle of its
-/// joint; for the thumb's metacarpal, the direction of the bone counts four times as much as the direction of the nail.
+/// The pose of `hand` that is nearest to tracked joints. Uses the rotations of the joints and the position of the
+/// wrist, so the bone lengths of the tracked hand do not matter. Each flex value is the least-squares angle of its
+/// joint. For the thumb's metacarpal, the direction of the bone counts four times as much as the direction of the nail.
 /// The poses must be rigid, so pass only joints that the runtime reports as tracked.
 ///
-/// OpenXR does not know the forearm. So both wrist angles are 0, and R is the frame of the palm. Values may lie beyond
-/// the limits (`KinematicChain::clamp`). The function is the inverse of `to_openxr` up to rounding if the wrist angles
-/// are 0. Real-time safe; about 3 µs.
+/// OpenXR has no forearm, so both wrist angles are 0, and R is the frame of the palm. Values may lie beyond the limits
+/// (`KinematicChain::clamp`). The function is the inverse of `to_openxr` up to rounding if the wrist angles are 0.
+/// Real-time safe; about 3 µs.
 HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept;
 
 inline constexpr std::size_t kAdroitJoints = 24;

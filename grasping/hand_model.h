@@ -1,6 +1,6 @@
 #pragma once
 
-/// A human hand as a kinematic chain of 22 flex values, scaled to a person, with a closed mesh for each segment.
+/// A human hand as a kinematic chain with 22 flex values, scaled to a person. Each segment has a closed mesh.
 
 #include <array>
 #include <cstddef>
@@ -92,7 +92,7 @@ struct HandModel {
 };
 
 /// Throws std::invalid_argument for a length outside 0.05 ... 0.5 m, a breadth outside 0.3 ... 0.7 of the length, or a
-/// side that is not known. Allocates the meshes: 18 of 150 to 400 triangles, in metres.
+/// side that is not known. Allocates 18 meshes of 150 to 400 triangles, in metres.
 HandModel make_hand(const HandShape& shape = {});
 
 }  // namespace glissade::grasping

@@ -40,7 +40,7 @@ struct ChainLink {
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();   ///< of unit length
   double offset = 0.0;                                 ///< rad
   std::vector<JointTerm> terms;                        ///< angle = offset + sum of the terms; none: a fixed joint
-  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: nothing that could touch
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: the link has no surface
 };
 
 /// The posture of a chain: the pose of its root and its flex values, the paper's (M, F).

@@ -17,7 +17,8 @@ struct UrdfChain {
   std::vector<std::string> warnings;
 };
 
-/// Reads a robot as a chain. Its root is the root link of the file; each link comes before those that hang on it.
+/// Reads a robot as a chain. The root of the chain is the root link of the file. Each link comes before the links that
+/// hang on it.
 ///
 /// - Joints: `revolute` with its limits, `continuous` with limits of ±π, and `fixed`. Every `revolute` or `continuous`
 ///   joint without `<mimic>` gives a flex value with the name of the joint, in the order of the links.

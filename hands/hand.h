@@ -67,7 +67,7 @@ enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
 /// The activity of a hand with fingers. Messages carry its number.
 enum class HandActivity : std::int32_t {
-  kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
+  kNone = 0,     ///< not reported, because the hand has no fingers in the simulation, and holds by its grip
   kLost = 1,     ///< the tracker has lost the hand, and the hand holds nothing
   kWaiting = 2,  ///< the hand has been inside an object since the start or since its tracker found it, and waits until
                  ///< it is free
@@ -87,8 +87,9 @@ inline constexpr std::int32_t kHandActivities = 5;
 /// The type of a grasp, from the touching segments (paper §4). The thumb's segments count as finger segments, too.
 /// Messages carry the number of the type.
 enum class GraspType : std::int32_t {
-  kNone = 0,       ///< nothing touches
-  kPush = 1,       ///< one segment or the palm alone; segments without thumb and palm; or palm and inner segments only
+  kNone = 0,  ///< nothing touches
+  kPush =
+      1,  ///< a single segment or the palm alone; only fingers other than the thumb; or only palm and inner segments
   kPrecision = 2,  ///< segments of the thumb and of another finger, without the palm
   kPower = 3,      ///< the palm and at least one middle or outer segment
 };

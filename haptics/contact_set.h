@@ -55,8 +55,8 @@ struct PartAnswer {
   /// has a row for each contact found, except for the `dropped` contacts.
   double reach = 0.0;
   contact::SlidingState state = contact::SlidingState::kFree;
-  std::int32_t pushing = 0;  ///< number of contacts that push, i.e. have a positive force
-  std::int32_t dropped = 0;  ///< contacts without a row, beyond kMaxContactRows
+  std::int32_t pushing = 0;  ///< number of contacts with a positive force
+  std::int32_t dropped = 0;  ///< number of contacts beyond kMaxContactRows, which have no row
   std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
 };
 
@@ -64,15 +64,15 @@ struct PartAnswer {
 /// gap grows by rates · d, to first order.
 struct FingerRow {
   hands::JointValues rates{};                     ///< m/rad
-  double gap = 0.0;                               ///< metres at the visible hand, less the margin; at least 0
+  double gap = 0.0;                               ///< metres: distance at the visible hand less the margin, at least 0
   std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: another body
   Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from the touched body to the segment
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the contact point of the segment
 };
 
 /// Maximum number of rows of one hand in a contact set. On a finely tessellated object a hand may have more contacts.
-/// The set then has these contacts: for each joint, the contact that pushes it back the farthest, so that no torque
-/// depends on omitted contacts; the deepest contact of each segment with each object; and the deepest of the others.
+/// The set then has the contact that pushes each joint back the farthest, the deepest contact of each segment with each
+/// object, and the deepest of the other contacts. So no torque depends on omitted contacts.
 inline constexpr std::size_t kMaxFingerRows = 32;
 
 /// The simulation's answer for one hand with fingers: the visible hand, and the part that it is to hold.
@@ -116,7 +116,7 @@ struct GhostOfPart {
 
 /// One hand with fingers as the haptic thread knows it.
 struct GhostOfHand {
-  bool is_tracked = false;  ///< the newest pose and angles came less than 0.1 s ago
+  bool is_tracked = false;  ///< the newest pose and angles arrived less than 0.1 s ago
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   hands::JointValues angles{};  ///< rad
   std::int32_t part = -1;       ///< number of the part that the hand holds; −1: none

@@ -20,10 +20,11 @@ inline constexpr std::chrono::milliseconds kTickPeriod{1};
 inline constexpr std::chrono::microseconds kShortestTickPeriod{200};
 inline constexpr std::chrono::milliseconds kLongestTickPeriod{2};
 
-/// Throws std::invalid_argument unless `period` lies within these bounds.
+/// Throws std::invalid_argument if `period` lies outside these bounds.
 void validate_tick_period(std::chrono::nanoseconds period);
 
-/// Damping against translation (N s/m) of the ghost's reference point and rotation (Nm s/rad) about it.
+/// Damping against translation of the ghost's reference point (N s/m), and against rotation about this point (Nm
+/// s/rad).
 struct CouplingDamping {
   double translational;
   double rotational;
@@ -45,9 +46,9 @@ contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& de
                                              std::chrono::nanoseconds delay) noexcept;
 
 /// The coupling that a device can render without shaking. The loop has this period, or that of the device if it is
-/// longer. `delay` is the delay of the link, which adds to the device's own delay. The stiffness is `wanted`, lowered
-/// to the limits of the descriptor and to `passive_stiffness`. The damping is 5 ms times this stiffness, but at most
-/// the descriptor's limit, and at most b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument,
+/// longer. `delay` is the delay of the link, which adds to the device's own delay. The stiffness is `wanted`, but at
+/// most the descriptor's limits and `passive_stiffness`. The damping is 5 ms times this stiffness, but at most the
+/// descriptor's limit, and at most b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument,
 /// naming the device, when the device cannot render any stiffness against translation or rotation.
 Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                       std::chrono::nanoseconds period = kTickPeriod,

@@ -28,7 +28,7 @@ struct WristJoint {
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();  ///< of unit length
 };
 
-/// A hand with fingers in the simulation, as far as the kernel knows it.
+/// The kernel's data of a simulated hand with fingers.
 struct FingerHand {
   hands::JointValues lower{};  ///< range of each joint, rad
   hands::JointValues upper{};
@@ -57,8 +57,8 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
 /// O(joints²) at worst.
 void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
-/// Torques for the joints of a glove whose hand clasps something. Springs push back each joint whose motion from the
-/// visible hand's posture to the glove's goes deeper into a contact, as far as `deepen` says. All other joints get
+/// Computes the joint torques of a glove whose hand clasps an object. Springs push back each joint whose motion from
+/// the visible hand's posture to the glove's goes deeper into a contact, as far as `deepen` says. All other joints get
 /// exactly zero torque.
 ///
 /// The torque is continuous in the posture of the glove. Contacts that push at an arm of less than 2 mm about a joint's
@@ -76,7 +76,7 @@ class FingerForces {
   FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                std::chrono::nanoseconds period = kTickPeriod);
 
-  /// From now on the delay of the link, measured at the glove (`GloveState::link_delay`), limits the stiffness.
+  /// Limits the stiffness from now on by the delay of the link, as measured at the glove (`GloveState::link_delay`).
   void set_link_delay(std::chrono::nanoseconds delay) noexcept;
 
   /// Nm/rad, at present.
@@ -115,7 +115,7 @@ class FingertipForces {
   FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}
 
   /// N: for each finger, the sum of the contact forces on its last segment. `targets` are the angles (rad) to which the
-  /// wearer closes the hand. Cost: O(rows · joints), a hundred times.
+  /// wearer closes the hand. Cost: 100 iterations of O(rows · joints).
   std::array<double, kFingers> update(const hands::JointValues& targets, const HandAnswer& hand);
 
  private:

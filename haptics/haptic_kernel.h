@@ -68,12 +68,12 @@ struct HandInLoop {
   std::optional<std::size_t> part;
 };
 
-/// A hand that closes takes no part whose bounding sphere is farther from the hand root than this, metres.
+/// Greatest distance (metres) from the hand root to the bounding sphere of a part that a closing hand takes.
 inline constexpr double kGripReach_m = 0.2;
 
 /// A hand after one tick.
 struct HandTick {
-  std::optional<std::size_t> part;  ///< number of the part that it holds
+  std::optional<std::size_t> part;  ///< number of the part that the hand holds
   contact::Wrench contacts;         ///< wrench of the contacts on the hand about the ghost's reference point
   contact::Wrench pull;             ///< wrench of other hands' pull on the part, about the same point
   double contact_share = 1.0;       ///< share of the contact force: less than 1 if the contacts are old or left behind
@@ -116,11 +116,11 @@ class HapticKernel {
 
   /// Computes the tick at time `now`. `states` has the newest state of each hand; the entry of a hand without a state
   /// is null. `set` is the newest contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A pose
-  /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. A hand that opens lets go. A
-  /// hand that closes grasps the part whose bounding sphere, about the compliance point, is nearest to the hand root.
-  /// The kernel follows an opening or closing after three states in a row with the same `GloveState::grip`. A contact
-  /// set with a number that is not finite counts as a set without contacts, with the parts at their last poses. A hand
-  /// with fingers follows the decisions of the set instead of its grip, and gets joint torques.
+  /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. An opening hand lets go. A
+  /// closing hand grasps the part whose bounding sphere about the compliance point is nearest to the hand root. The
+  /// kernel follows an opening or closing after three states in a row with the same `GloveState::grip`. A contact set
+  /// with a number that is not finite counts as a set without contacts, with the parts at their last poses. A hand with
+  /// fingers follows the decisions of the set instead of its grip, and gets joint torques.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
 

@@ -36,11 +36,11 @@ namespace glissade::haptics {
 class Answerer;
 
 struct HapticServerOptions {
-  /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on it: all rates
-  /// of change are per second.
+  /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on the period,
+  /// because all rates of change are per second.
   std::chrono::nanoseconds period = kTickPeriod;
-  /// Number of counted ticks after which the force fades and the haptic thread ends. With 0 the thread runs until
-  /// `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
+  /// Number of counted ticks after which the force fades and the haptic thread ends. 0: it runs until `stop`. Ticks
+  /// before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
   /// Time before each deadline for which the haptic thread polls the clock instead of sleeping, at most half of the
   /// period. Polling makes ticks start on time, and occupies a processor for this time.
@@ -50,7 +50,7 @@ struct HapticServerOptions {
   /// again.
   std::function<void(const devices::HapticState&)> sink{};
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
-  /// Null: the steady clock of the system. Several threads use it; must outlive the server.
+  /// Null: the steady clock of the system. Several threads use the clock. It must outlive the server.
   realtime::Clock* clock = nullptr;
 };
 

@@ -66,8 +66,8 @@ struct TickRecord {
   std::chrono::nanoseconds deadline{0};       ///< scheduled start
   std::chrono::nanoseconds time{0};           ///< actual start, on the loop's clock
   std::chrono::nanoseconds last_duration{0};  ///< `duration` of the previous tick
-  bool is_stopped = false;                    ///< the force of all hands was stopped before this tick
-  std::int32_t hand_count = 0;                ///< entries in use in arrays of hands
+  bool is_stopped = false;                    ///< all forces were stopped before this tick
+  std::int32_t hand_count = 0;                ///< number of used entries in the arrays of hands
   std::array<bool, hands::kMaxHands> has_state{};
   std::array<devices::GloveState, hands::kMaxHands> states{};  ///< the newest state of each hand with `has_state`
   HoldRequests requests;

@@ -29,8 +29,8 @@ namespace glissade::shapes {
 /// covers, and fastening tabs. About 0.52 m wide along x, 0.24 m deep along y, 0.22 m high along z; it shines along y.
 geometry::TriangleMesh make_headlight(std::int64_t triangle_count);
 
-/// Lock of a car door: punched plates, a rotary latch with its pawl, levers, rivets, springs, a worm gear with its
-/// motor, and a ribbed housing around them. About 0.13 m × 0.1 m × 0.05 m, with the plates perpendicular to z.
+/// Lock of a car door: punched plates, a rotary latch with pawl, levers, rivets, springs, a worm gear with motor, and a
+/// ribbed housing. About 0.13 m × 0.1 m × 0.05 m, with the plates perpendicular to z.
 geometry::TriangleMesh make_door_lock(std::int64_t triangle_count);
 
 /// Body of a car in sheet metal without thickness, with open windows and wheel arches, two front seats, a rear bench,
@@ -45,7 +45,7 @@ geometry::TriangleMesh make_engine_hose(std::int64_t triangle_count);
 /// Open sheet without thickness about the origin. Its height is a smooth field of bumps, with `wave_count` waves along
 /// each edge and z from -bump_height / 2 to bump_height / 2. Two parallel copies at a small distance along z are the
 /// worst case of every bounding-volume hierarchy, because they are close everywhere and touch nowhere. The sheet is one
-/// welded component of about square cells. Throws std::invalid_argument also for a size or height that is not positive
+/// welded component of about square cells. Also throws std::invalid_argument for a size or height that is not positive
 /// and finite, and for a wave count outside 1 ... 10,000.
 geometry::TriangleMesh make_bumpy_plate(const Eigen::Vector2d& size, double bump_height, int wave_count,
                                         std::int64_t triangle_count);

@@ -27,7 +27,7 @@ inline constexpr double kAccessHoleX = 0.0;
 inline constexpr double kAccessHoleZ = -0.14;
 inline constexpr double kAccessHoleCornerRadius = 0.025;
 
-/// Side-impact tube: along x through (y, z), 32 mm in diameter.
+/// Side-impact tube: parallel to x through (kImpactTubeY, kImpactTubeZ) in y and z, 32 mm in diameter.
 inline constexpr double kImpactTubeY = 0.105;
 inline constexpr double kImpactTubeZ = 0.0;
 inline constexpr double kImpactTubeRadius = 0.016;

@@ -26,7 +26,7 @@ struct PegShape {
   int rows = 1;             ///< cells along the straight wall, 1 ... 100,000
 };
 
-/// Peg about z from z = 0 to z = length. 2 segments (rows + 3) triangles.
+/// Peg about z from z = 0 to z = length. The mesh has 2 segments (rows + 3) triangles.
 geometry::TriangleMesh make_peg(const PegShape& peg);
 
 struct HoledPlateShape {

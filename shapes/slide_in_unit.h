@@ -3,11 +3,11 @@
 /// A unit that slides into a bay, such as a radio into its slot. Spring tongues of the bay overlap the unit by design.
 /// The shapes are for tests of parts that seat although other parts are in the way.
 ///
-/// The unit is given in its own frame, which coincides with that of the bay when the unit is seated. It slides in along
-/// +y. The bezel lies between y = -bezel_thickness and y = 0. When the unit is seated, the back of the bezel touches
-/// the flange of the bay in the plane y = 0 at a distance of exactly zero. The body reaches from y = 0 to y = depth,
-/// with `clearance` to the bay on all sides and at the back. The tongues stand on the walls x = ± (width / 2 +
-/// clearance) and reach into the sides of the body by `overlap`.
+/// The unit is given in its own frame. This frame coincides with the frame of the bay when the unit is seated. It
+/// slides in along +y. The bezel lies between y = -bezel_thickness and y = 0. When the unit is seated, the back of the
+/// bezel touches the flange of the bay in the plane y = 0 at a distance of exactly zero. The body reaches from y = 0 to
+/// y = depth, with `clearance` to the bay on all sides and at the back. The tongues stand on the walls x = ± (width / 2
+/// + clearance) and reach into the sides of the body by `overlap`.
 ///
 /// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
 /// are not positive and finite or do not fit together, and for counts out of range.
@@ -24,7 +24,7 @@ struct SlideInShape {
   double height = 0.05;  ///< of the body, along z
   double depth = 0.16;   ///< of the body, along y
   double bezel_thickness = 8e-3;
-  double bezel_border = 6e-3;  ///< bezel and flange reach beyond the body by this, more than the clearance
+  double bezel_border = 6e-3;  ///< reach of bezel and flange beyond the body; more than the clearance
   double clearance = 0.5e-3;
   double overlap = 0.3e-3;        ///< of each tongue with the seated body; less than half the width
   int tongues_per_side = 2;       ///< 1 ... 100, one behind the other

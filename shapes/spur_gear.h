@@ -40,7 +40,7 @@ struct GearBaseShape {
   int segments = 64;      ///< facets around the post, a multiple of 8 up to 100,000
 };
 
-/// Base with its upper face, the seat, at z = 0, and a post about z on the seat. 10 segments triangles.
+/// Base with its upper face, the seat, at z = 0, and a post about z on the seat. The mesh has 10 segments triangles.
 geometry::TriangleMesh make_gear_base(const GearBaseShape& base);
 
 }  // namespace glissade::shapes
