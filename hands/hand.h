@@ -87,9 +87,8 @@ inline constexpr std::int32_t kHandActivities = 5;
 /// The type of a grasp, from the touching segments (paper §4). The thumb's segments count as finger segments, too.
 /// Messages carry the number of the type.
 enum class GraspType : std::int32_t {
-  kNone = 0,  ///< nothing touches
-  kPush =
-      1,  ///< a single segment or the palm alone; only fingers other than the thumb; or only palm and inner segments
+  kNone = 0,       ///< nothing touches
+  kPush = 1,       ///< a segment or the palm alone; fingers without the thumb; or only palm and inner segments
   kPrecision = 2,  ///< segments of the thumb and of another finger, without the palm
   kPower = 3,      ///< the palm and at least one middle or outer segment
 };

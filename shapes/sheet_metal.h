@@ -39,8 +39,8 @@ struct SheetMetal {
   std::vector<Bead> beads;
 };
 
-/// The sheet with about `triangle_count` triangles, facing +z. Holes and beads keep their shape at any count, so the
-/// mesh has more triangles than very small counts. Vertices of outlines lie on the outlines within 1e-7 m.
+/// The sheet with about `triangle_count` triangles, facing +z. If `triangle_count` is too small for the shapes of holes
+/// and beads, the mesh has more triangles. Vertices of outlines lie on the outlines within 1e-7 m.
 ///
 /// Throws std::invalid_argument for a size that is not positive, a corner radius that does not fit, a flank wider than
 /// the bead allows, or a hole or bead that is not within the sheet. Holes and beads should not overlap. Where a hole
