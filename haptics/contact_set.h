@@ -1,8 +1,8 @@
 #pragma once
 
-/// The data that the haptic thread (the 1 kHz loop that computes the forces) and the simulation exchange, as plain data
-/// of fixed size. The haptic thread passes on the ghosts of all parts and the postures of all hands. The simulation
-/// answers with the visible poses and the constraints of nearby contacts.
+/// The plain data of fixed size that the haptic thread (the 1 kHz loop that computes the forces) and the simulation
+/// exchange. The haptic thread passes on the ghosts of all parts and the postures of all hands. The simulation answers
+/// with the visible poses and the constraints of nearby contacts.
 
 #include <array>
 #include <chrono>

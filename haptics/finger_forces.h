@@ -84,9 +84,9 @@ class FingerForces {
   /// Nm, of the device.
   double max_torque() const noexcept { return device_.max_joint_torque; }
 
-  /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full up to an
-  /// age of the answer of kFullForce, and zero from kForceless on. They are zero for angles that are not finite. Cost:
-  /// O(rows · joints), 0.05 µs a row.
+  /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full while the
+  /// answer is younger than kFullForce, and zero from kForceless on. They are zero for angles that are not finite.
+  /// Cost: O(rows · joints), 0.05 µs a row.
   const hands::JointValues& update(const hands::JointValues& angles, const HandAnswer& hand,
                                    std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
 
