@@ -36,7 +36,7 @@ constexpr const char* kRunDescription = "Run the haptic server: receive glove st
 
 constexpr const char* kRunFooter =
     "The parts are the movable objects of the scene. When the first state of a glove arrives on the channel\n"
-    "GLOVE_STATE, its hand grasps a part rigidly. The part stays at its pose in the scene. The first glove takes the\n"
+    "GLOVE_STATE, the hand grasps a part rigidly. The part stays at its pose in the scene. The first glove takes the\n"
     "first part. The second glove takes the second part or, if there is only one part, the same part. --hold chooses\n"
     "other parts. If the glove reports its grip, a hand that opens lets go, and a hand that closes takes the nearest\n"
     "part. Parts that no hand holds lie still. With --fingers, hands grasp the parts round which their fingers close,\n"
@@ -54,7 +54,7 @@ constexpr const char* kRunFooter =
     "Examples, with the files of 'glissade example' and a simulated glove:\n"
     "  glissade glove --script square_peg_script.csv & glissade run square_peg.yaml --seconds 4\n"
     "  glissade glove --fingers & glissade run door_module.yaml --fingers --seconds 9\n"
-    "Two gloves, one of which holds nothing:\n"
+    "Two gloves; the second holds nothing:\n"
     "  glissade glove --script square_peg_script.csv & glissade glove --device 2 & glissade run square_peg.yaml "
     "--device 1 2 --hold 2= --seconds 4";
 
