@@ -222,7 +222,7 @@ TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
   server.signal(SIGINT);
   const test_support::ProgramResult result = server.wait();
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
-  EXPECT_NE(result.standard_error.find("made with another key"), std::string::npos) << result.standard_error;
+  EXPECT_NE(result.standard_error.find("have another key"), std::string::npos) << result.standard_error;
 }
 
 TEST(TwoProcesses, AServerThatWaitsForAnotherGloveSaysWhichSend) {
