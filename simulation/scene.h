@@ -1,7 +1,7 @@
 #pragma once
 
-/// A scene before anything moves. It has objects, hands and the rules of contact. Hands can hold some objects; scripts
-/// move others.
+/// A scene before anything moves. A scene has objects, hands and the rules of contact. Hands can hold some objects.
+/// Scripts move other objects.
 
 #include <cstddef>
 #include <cstdint>
@@ -26,17 +26,20 @@
 
 namespace glissade::simulation {
 
-/// A mesh in metres: a value, a shared one, that of a file, or a shape of the catalogue. Copies share it.
+/// A mesh in metres: a given mesh, the mesh of a file, or a shape of the catalogue. Copies of a `SceneMesh` share the
+/// mesh.
 class SceneMesh {
  public:
   SceneMesh() = default;
   SceneMesh(geometry::TriangleMesh mesh) : SceneMesh(std::make_shared<const geometry::TriangleMesh>(std::move(mesh))) {}
   SceneMesh(std::shared_ptr<const geometry::TriangleMesh> mesh) : mesh_(std::move(mesh)) {}
-  /// Reads OBJ, STL, PLY or glTF whose unit is `scale` metres, e.g. 1e-3 for millimetres, as `geometry::import_mesh`
-  /// does, or `geometry::import_unwelded_mesh`. Throws std::invalid_argument, naming the file, as they do.
+  /// Reads a mesh file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. If `is_welded`,
+  /// `geometry::import_mesh` reads the file, otherwise `geometry::import_unwelded_mesh`. Throws std::invalid_argument,
+  /// naming the file, as these functions do.
   SceneMesh(const std::filesystem::path& file, double scale, bool is_welded = true);
-  /// Makes a shape of the catalogue in docs/scene_files.md; parameters that are not given take their defaults. Throws
-  /// std::invalid_argument, listing the known names, for an unknown shape or parameter, and for a value out of range.
+  /// Makes a shape of the catalogue in docs/scene_files.md; parameters that are not given have their defaults. Throws
+  /// std::invalid_argument for an unknown shape or parameter (the message lists the known names) and for a value out of
+  /// range.
   static SceneMesh of_shape(const std::string& type, const std::map<std::string, double>& parameters = {});
 
   const geometry::TriangleMesh& operator*() const { return *mesh_; }
@@ -44,7 +47,7 @@ class SceneMesh {
   /// Null if no mesh was given.
   const std::shared_ptr<const geometry::TriangleMesh>& shared() const { return mesh_; }
 
-  /// How a scene file tells of the mesh. Both names are empty for a mesh given as a value.
+  /// The entry of the mesh in a scene file. `file` and `shape` are empty for a mesh given as a value.
   struct Origin {
     std::filesystem::path file{};  ///< absolute
     double scale = 1.0;            ///< metres per unit of the file
@@ -55,9 +58,9 @@ class SceneMesh {
   const Origin& origin() const { return origin_; }
 
   // Of a mesh from a file:
-  /// Triangles without area, which were left out.
+  /// Number of triangles without area. These triangles were left out.
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
-  /// The warnings of `geometry::import_mesh`. Each begins with the name of the file.
+  /// The warnings of `geometry::import_mesh`. Each warning begins with the name of the file.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
@@ -67,10 +70,10 @@ class SceneMesh {
   std::vector<std::string> warnings_{};
 };
 
-/// Motion of an object that moves on its own, or in another hand.
+/// Motion of an object that moves on its own or in another hand.
 struct SceneMotion {
   geometry::PoseTrajectory script_X_WB;
-  std::optional<double> grip_N_per_m{};  ///< default: that of `contact::ScriptedPart`
+  std::optional<double> grip_N_per_m{};  ///< default: as in `contact::ScriptedPart`
 };
 
 /// One object at its initial pose.
@@ -79,58 +82,66 @@ struct SceneObject {
   SceneMesh mesh;  ///< in the object's frame B
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;                 ///< hands can hold it
-  std::optional<SceneMotion> motion{};  ///< of an object that is not movable; it starts where the script does
-  std::optional<double> margin_m{};     ///< `contact::Obstacle::margin`; without effect on what moves
-  /// Where the spring of the coupling acts; default: the centre of the bounding box.
+  std::optional<SceneMotion> motion{};  ///< only if not `movable`; the script then gives the initial pose
+  std::optional<double> margin_m{};     ///< see `contact::Obstacle::margin`; no effect on moving objects
+  /// The point at which the coupling spring acts. Default: the centre of the bounding box.
   std::optional<Eigen::Vector3d> compliance_point_B{};
-  std::vector<std::int32_t> giving_way{};  ///< triangles that stop nothing, ascending
+  std::vector<std::int32_t> giving_way{};  ///< triangles that stop nothing, in ascending order
 };
 
-/// Objects, all of different names; hands with fingers; and how parts are held and touch.
+/// Objects with different names, hands with fingers, and the rules by which hands hold parts and parts touch.
 struct Scene {
   std::vector<SceneObject> objects{};
   std::vector<grasping::HandShape> hands{};
   contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;
-  /// Of the coupling against translation; against rotation, this times the square of the part's radius.
+  /// Stiffness of the coupling against translation. The stiffness against rotation is this times the square of the
+  /// part's radius.
   double stiffness_N_per_m = contact::kUsualStiffness_N_per_m;
   contact::SlidingRules rules{};
-  Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity, for grasps
-  std::string source = "the scene";                 ///< such as the file's name, for messages
-  std::optional<Eigen::Isometry3d> X_WGoal{};       ///< of the first part, for checks
-  std::optional<std::string> script_path{};         ///< of the trajectory that belongs to a scene file
+  Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< unit vector against gravity, for grasps
+  std::string source = "the scene";                 ///< for messages, such as the name of the file
+  std::optional<Eigen::Isometry3d> X_WGoal{};       ///< goal pose of the first part, for checks
+  std::optional<std::string> script_path{};         ///< path of the trajectory of a scene file
 
-  /// Throws std::invalid_argument, with the known names and the one that may have been meant, when there is no object
-  /// `name`.
+  /// Throws std::invalid_argument if there is no object `name`. The message lists the known names, and the name that
+  /// may have been meant.
   const SceneObject& find(const std::string& name) const;
-  /// The names of the movable objects, in their order.
+  /// The names of the movable objects, in the order of `objects`.
   std::vector<std::string> movable_names() const;
 };
 
-/// Reads a scene file, and the meshes and motions that it names; docs/scene_files.md has every key. Objects of one mesh
-/// share it; `script_path` is only noted. Throws std::invalid_argument, one line with file, line and key or value, for
-/// every deviation from the format. May block on the disk. Thread-safe. Cost: that of its meshes.
+/// Reads a scene file, and the meshes and motions that the file names. All keys: see docs/scene_files.md. Objects with
+/// the same mesh share one copy. The file at `script_path` is not read. Throws std::invalid_argument for every
+/// deviation from the format. The message is one line with the file, the line and the key or value. May block on the
+/// disk. Thread-safe. Reading the meshes takes most of the time.
 Scene read_scene(const std::filesystem::path& path);
 
-/// The same for a text in memory: `source` replaces the file's name in messages, and paths in the scene are relative to
-/// `base_folder`.
+/// As `read_scene`, for a text in memory. `source` replaces the name of the file in messages. Paths in the scene are
+/// relative to `base_folder`.
 Scene parse_scene(const std::string& text, const std::string& source, const std::filesystem::path& base_folder);
 
-/// Writes a scene file that `read_scene` reads back as an equal scene, with every number to the bit. In the file are
-/// all objects, their poses as matrices, motions row by row, and shapes by their parameters. Meshes of files and the
-/// script stay where they are: the file has their paths, relative to its folder. Each mesh given as a value is written
-/// beside the file, as STEM_N.obj for object N (the first is 1), once for all objects that share it.
+/// Writes a scene file. `read_scene` reads this file back as an equal scene, with every number equal to the bit. The
+/// file has all objects, with poses as matrices, motions row by row, and shapes by their parameters. Mesh files and the
+/// script are not copied: the scene file has their paths, relative to its folder. A mesh given as a value is written to
+/// STEM_N.obj in the same folder, where N is the number of the object (from 1). Objects that share such a mesh share
+/// the file.
 ///
-/// A file that is there already is kept if it has the same content; if one has another, nothing is written.
+/// A file that exists with the same content is kept. If a file exists with other content, nothing is written.
 ///
-/// Throws std::invalid_argument, naming the file or the object: for such a file, and a folder that is not there; for
-/// what scene files do not have (hands, and rules, metaphor, stiffness or upward direction that are not the default);
-/// for what `bodies_of` refuses of any object; and for what the reader refuses or would change: names that are empty or
-/// no UTF-8, rotations with a `geometry::rotation_defect` above 1e-12, times that no number of seconds gives to the
-/// nanosecond (beyond some 26 days), triangles that give way where no axis-aligned box holds them and no others, and
-/// values out of range.
-/// Throws std::runtime_error when not everything could be written, such as on a full disk. May block on the disk.
-/// Thread-safe, but for calls that write the same file. Cost: linear in the size of its meshes; for triangles that give
-/// way, in those of their object for each box.
+/// Throws std::invalid_argument, naming the file or the object, in these cases:
+/// - A file exists with other content, or the folder does not exist.
+/// - The scene has hands, or a value that scene files cannot hold: rules, metaphor, stiffness or upward direction other
+///   than the default.
+/// - `bodies_of` refuses an object.
+/// - A name is empty or is not UTF-8.
+/// - A rotation has a `geometry::rotation_defect` above 1e-12.
+/// - No number of seconds gives a time to the nanosecond (beyond some 26 days).
+/// - No axis-aligned boxes hold exactly the triangles that give way.
+/// - A value is out of range.
+///
+/// Throws std::runtime_error if not everything could be written, for example on a full disk. May block on the disk.
+/// Thread-safe, except for calls that write the same file. Cost: linear in the size of the meshes. Each box of
+/// triangles that give way adds a cost linear in the triangles of the object.
 void write_scene(const Scene& scene, const std::filesystem::path& path);
 
 /// A part that hands can hold.
@@ -140,38 +151,43 @@ struct ScenePart {
   Eigen::Isometry3d X_WV_start = Eigen::Isometry3d::Identity();
 };
 
-/// The objects of a scene, prepared for contact: obstacles of one mesh share their body. Bodies are numbered as in
-/// contacts: obstacles, parts, objects that move on their own.
+/// The objects of a scene, prepared for contact. Obstacles with the same mesh share a body. Bodies are numbered as in
+/// contacts: first the obstacles, then the parts, then the objects that move on their own.
 struct SceneBodies {
   std::string source;            ///< `Scene::source`
   std::vector<ScenePart> parts;  ///< at least one
   std::vector<contact::Obstacle> obstacles;
   std::vector<contact::ScriptedPart> moving;  ///< the objects that move on their own
-  std::vector<std::string> body_names;        ///< by the number of the body
-  std::optional<Eigen::Isometry3d> X_WGoal;   ///< of the first part
+  std::vector<std::string> body_names;        ///< index: number of the body
+  std::optional<Eigen::Isometry3d> X_WGoal;   ///< goal pose of the first part
 
-  /// Number of the part with this name; nothing if there is none.
+  /// Number of the part with this name; std::nullopt if no part has it.
   std::optional<std::size_t> part_number(const std::string& name) const;
   /// The names of all parts, in quotes, for messages.
   std::string part_names() const;
 };
 
-/// Takes the objects with these names as the parts, in this order; other movable ones are obstacles. Throws
-/// std::invalid_argument, naming the scene and the object, when there is no such object or no other one, when an object
-/// at its pose has no area or reaches beyond ±1e9 m, when a part moves on its own or is named twice, when two objects
-/// have one name, when triangles that give way are not ascending numbers of the mesh, and for more than
-/// `contact::kMaxParts` parts and objects that move on their own. Cost: the trees of the meshes.
+/// The objects with the names `part_names` become the parts, in this order. All other movable objects become obstacles.
+/// Throws std::invalid_argument, naming the scene and the object, in these cases:
+/// - No object has one of the names, or the scene has only one object.
+/// - An object has no mesh, has no area at its pose, or reaches beyond ±1e9 m.
+/// - A part moves on its own, or is named twice.
+/// - Two objects have the same name.
+/// - The numbers of triangles that give way do not ascend, or are out of range.
+/// - There are more than `contact::kMaxParts` parts and objects that move on their own.
+///
+/// Building the trees of the meshes takes most of the time.
 SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names);
 
-/// All parts of a simulation: those that hands can hold, then the objects that move on their own. The stiffness is as
-/// in `Scene`.
+/// All parts of a simulation: first the parts that hands can hold, then the objects that move on their own. For the
+/// stiffness, see `Scene`.
 std::vector<contact::HeldPart> held_parts(const SceneBodies& bodies, contact::Metaphor metaphor,
                                           double stiffness_N_per_m);
 
-/// The models of hands. Hands of one shape share theirs.
+/// The models of hands. Hands of the same shape share a model.
 std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(std::span<const grasping::HandShape> hands);
 
-/// The triangles of an object that stop something.
+/// The mesh of an object without the triangles that give way.
 std::shared_ptr<const geometry::TriangleMesh> stopping_mesh(const SceneObject& object);
 
 }  // namespace glissade::simulation

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What moves in a scene: parts that slide along what they touch and never go into it, and hands that grasp them.
+/// The simulation of a scene. Parts slide along the bodies that they touch, and never enter them. Hands grasp parts.
 
 #include <cstddef>
 #include <limits>
@@ -19,9 +19,9 @@
 
 namespace glissade::simulation {
 
-/// A scene in motion. Without hands, the caller leads the parts: each follows its ghost, the pose that it would have if
-/// nothing were in the way. Hands with fingers take hold of parts by touch and lead them. Bodies are numbered as in
-/// `SceneBodies`, parts and hands as in the scene. Deterministic. Not thread-safe.
+/// A scene in motion. Without hands, the caller leads the parts: each part follows its ghost, i.e. the pose that the
+/// part would have if nothing were in the way. Hands with fingers grasp parts by touch and lead them. Bodies are
+/// numbered as in `SceneBodies`; parts and hands are numbered as in the scene. Deterministic. Not thread-safe.
 class Simulation {
  public:
   /// Throws std::invalid_argument as `bodies_of` and `grasping::GraspSimulation` do, and for a scene without movable
@@ -30,40 +30,43 @@ class Simulation {
   Simulation(Simulation&&) noexcept = default;
   Simulation& operator=(Simulation&&) noexcept = default;
 
-  /// Moves the parts for `milliseconds`, each towards its ghost X_WG: one pose for each part that can be held. Once a
-  /// millisecond of motion; a late caller passes the whole time. After a `haptics::HapticServer` has let go of a part,
-  /// the caller takes hold of it again. Throws std::invalid_argument for another number of poses, and for a scene with
-  /// hands, which lead the parts.
+  /// Moves each part towards its ghost for `milliseconds`. X_WG has one pose for each part that can be held. Call this
+  /// once per millisecond of motion. A caller that is late passes the whole time. If a `haptics::HapticServer` has
+  /// released a part, this call grasps the part again. Throws std::invalid_argument for another number of poses, and
+  /// for a scene with hands, because there the hands lead the parts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
-  /// The same for a scene with one part; another throws, too.
+  /// As the other `advance`, for a scene with one part. Also throws for a scene with several parts.
   void advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) { advance({&X_WG, 1}, milliseconds); }
-  /// Moves the hands of the scene for `milliseconds`, each towards its posture, and the parts with them. No posture:
-  /// the tracking of the hand is lost. Not after a `haptics::HapticServer` has led the hands. Throws
-  /// std::invalid_argument for another number of postures than hands.
+  /// Moves each hand of the scene towards its posture for `milliseconds`, and moves the parts with the hands.
+  /// std::nullopt means that the tracking of the hand is lost. Do not call this after a `haptics::HapticServer` has led
+  /// the hands. Throws std::invalid_argument unless there is one posture for each hand.
   void advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds = 1.0);
 
   std::size_t part_count() const { return bodies_.parts.size(); }
   const SceneBodies& bodies() const { return bodies_; }
-  /// Of the body with this number, as in `contact::Contact::obstacle`; a hand is "a hand", and −1 "nothing".
+  /// The name of the body with this number, as in `contact::Contact::obstacle`. Every hand has the name "a hand"; −1
+  /// has the name "nothing".
   const std::string& name_of_body(std::int32_t body) const;
 
-  // Of the part with this number:
+  // Properties of the part with this number:
   /// Poses, state and contacts after the last call.
   const contact::SlidingResult& result(std::size_t part) const { return engine_.parts().result(part); }
   const Eigen::Isometry3d& X_WV(std::size_t part) const { return result(part).X_WV; }
-  /// As `contact::MultiPartSliding::lag`: from the visible part to its target.
+  /// The displacement from the visible part to its target, see `contact::MultiPartSliding::lag`.
   geometry::Displacement lag(std::size_t part) const { return engine_.parts().lag(part); }
-  /// What the contacts exert on the hands that hold the part, about its compliance point, in world axes. Exactly zero
-  /// while nothing pushes; at rest, the spring of the coupling.
+  /// The wrench of the contacts on the hands that hold the part, about the part's compliance point, in world axes.
+  /// Exactly zero while no contact pushes. At rest, the wrench balances the coupling spring.
   contact::Wrench wrench(std::size_t part) const;
-  /// The contacts that touch, with numbers that stay from call to call (`contact::ContactTracker`), for callers that
-  /// ask after every call of `advance`. A hand that moves along the part makes new contacts. Valid until the next call.
+  /// The touching contacts. Their numbers stay the same from call to call (see `contact::ContactTracker`) if this is
+  /// called after every `advance`. A hand that moves along the part makes new contacts. The span is valid until the
+  /// next call.
   std::span<const contact::TrackedContact> contacts(std::size_t part);
-  /// Metres to the nearest other body of the scene, hands not counted; `farthest` if nothing is nearer. 0 where the
-  /// part overlaps one since the start. Cost: a query for each body.
+  /// Distance (metres) from the part to the nearest other body of the scene; `farthest` if no body is nearer. Hands do
+  /// not count. 0 if the part intersects a body, which is possible only for overlaps at the start. Cost: one query for
+  /// each body.
   double clearance(std::size_t part, double farthest = std::numeric_limits<double>::infinity());
 
-  /// Hands, work, and everything else. A `haptics::HapticServer` takes it.
+  /// The underlying simulation, with hands and statistics. The argument of a `haptics::HapticServer`.
   grasping::GraspSimulation& engine() & { return engine_; }
   const grasping::GraspSimulation& engine() const& { return engine_; }
   operator grasping::GraspSimulation&() & { return engine_; }
@@ -72,7 +75,7 @@ class Simulation {
   /// The contacts of a part with their numbers.
   struct Tracked {
     contact::ContactTracker tracker;
-    std::vector<Eigen::Isometry3d> X_WB;  ///< of all parts at the last update
+    std::vector<Eigen::Isometry3d> X_WB;  ///< poses of all parts at the last update
   };
 
   SceneBodies bodies_;

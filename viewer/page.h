@@ -1,17 +1,18 @@
 #pragma once
 
-/// The page on which one sees a scene, live from a `ViewServer` or by itself in a report; and its colours.
+/// The HTML page that shows a scene, and the colours of the page. The page gets the scene live from a `ViewServer`, or
+/// is part of a report.
 
 #include <array>
 #include <string_view>
 
 namespace glissade::viewer {
 
-/// One HTML file with its scripts and styles. It loads the model and connects to the server that it came from.
+/// One HTML file with its scripts and styles. The page loads the model from its server, and connects to this server.
 std::string_view page() noexcept;
 
-/// A colour of the page's palette, on a light screen: red, green and blue of sRGB, 0 to 1.
-/// Throws std::logic_error if the palette has none of this name.
+/// A colour of the page's palette for light screens: red, green and blue of sRGB, from 0 to 1. Throws std::logic_error
+/// if the palette has no colour `name`.
 std::array<double, 3> color(std::string_view name);
 
 }  // namespace glissade::viewer

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The state of the haptic loop as a viewer gets it, at most 60 times a second.
+/// Frames: the state of the haptic loop for a viewer, at most 60 times a second.
 
 #include <array>
 #include <cstddef>
@@ -16,31 +16,34 @@
 
 namespace glissade::viewer {
 
-/// Makes frames of the states of ticks. A frame shows the newest state, and the greatest force, age, lateness and
+/// Makes frames from the states of ticks. A frame shows the newest state, and the greatest force, age, lateness and
 /// duration since the last frame. Not thread-safe; allocates.
 ///
-/// A frame is little endian: two numbers in double precision, the time of the tick in seconds and its number; then
-/// numbers in single precision. First ten: 1 if the contact set was late or else 0; its greatest age in ms; the
-/// greatest lateness of a tick and the greatest duration of one in µs; the number of frames that this viewer has
-/// missed; the numbers of parts, hands, contacts and patches, and of patches left out. For each part: the poses of
-/// ghost G and visible part V, each as x, y, z in metres and w, x, y, z, relative to `ViewScene::p_WO()`; how far its
-/// reference point lags in metres, and its angle in radians; its state;
-/// the number of contacts that push. For each hand: the number of the part that it holds or −1; force in N; torque in
-/// Nm; the greatest force; the share of the contacts' force; 1 if they were unsolved or else 0; the reasons of the
-/// server and those of the glove, as bits; the energy in J; activity; grasp, its form, and the segments that touch as
-/// `hands::VisibleHand` has them, what they lack to hold (`grasping::GraspLack`); the greatest torque on a joint in
-/// Nm; the number of its links, 0 where it is not present, and the pose of each. For each contact: the part; x, y, z in
-/// the part's frame V in metres; the normal in world axes. For each patch: the part; the number of contacts; x, y, z
-/// and the normal as for a contact; the extent in metres.
+/// A frame is little endian. It begins with two numbers in double precision: the time of the tick in seconds, and the
+/// number of the tick. All further numbers have single precision. A pose is x, y, z in metres relative to
+/// `ViewScene::p_WO()`, followed by the quaternion w, x, y, z.
+/// - The next ten numbers are: 1 if the contact set was late, otherwise 0; the greatest age of the contact set in ms;
+///   the greatest lateness of a tick in µs; the greatest duration of a tick in µs; the number of frames that this
+///   viewer has missed; the number of parts; the number of hands; the number of contacts; the number of patches; the
+///   number of patches left out.
+/// - For each part: the pose of the ghost G; the pose of the visible part V; the lag of the reference point in metres;
+///   the lag of the rotation in radians; the state; the number of contacts that push.
+/// - For each hand: the number of the part that the hand holds, or −1; the force in N (x, y, z); the torque in Nm (x,
+///   y, z); the greatest force in N; the share of the contacts' force; 1 if the contacts were unsolved, otherwise 0;
+///   the reasons of the server, as bits; the reasons of the glove, as bits; the energy in J; the activity, grasp, form
+///   and touching segments of `hands::VisibleHand`; the condition that the grasp lacks (`grasping::GraspLack`); the
+///   greatest torque on a joint in Nm; the number of links, 0 for a hand that is not present; the pose of each link.
+/// - For each contact: the part; x, y, z in the part's frame V in metres; the normal in world axes.
+/// - For each patch: the part; the number of contacts; x, y, z and the normal as for a contact; the extent in metres.
 class FrameMaker {
  public:
   explicit FrameMaker(const ViewScene& scene);
 
   /// Takes the state of a tick.
   void add(const devices::HapticState& state);
-  /// Whether there is one since the last frame.
+  /// Whether a state was added since the last frame.
   bool has_news() const noexcept { return has_news_; }
-  /// The frame, for a viewer that has missed none.
+  /// Makes the frame for a viewer that has missed no frames.
   std::string make();
 
  private:
@@ -55,10 +58,10 @@ class FrameMaker {
   std::array<double, devices::kHapticHands> forces_N_{};
 };
 
-/// Appends a frame to others, after its length in 4 bytes.
+/// Appends the length of a frame (4 bytes) and the frame to `frames`.
 void append_frame(std::string& frames, const std::string& frame);
 
-/// Writes into a frame how many the viewer has missed.
+/// Writes the number of missed frames into a frame.
 void set_missed(std::string& frame, std::uint64_t missed);
 
 }  // namespace glissade::viewer

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What a viewer shows: the objects of a scene and the hands, before anything moves.
+/// The objects and hands that a viewer shows, before anything moves.
 
 #include <cstddef>
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace glissade::viewer {
 
-/// An object of the scene. One with a part number moves as that part of `devices::HapticState` does.
+/// An object of the scene. An object with a number `part` moves with the part of this number in `devices::HapticState`.
 struct ViewObject {
   std::string name;
   std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< metres, in the object's frame B; equal meshes are sent once
@@ -25,10 +25,10 @@ struct ViewObject {
   bool moves_on_its_own = false;  ///< a part that no hand can hold
 };
 
-/// A hand, by its number in `devices::HapticState`.
+/// A hand. Hands are numbered as in `devices::HapticState`.
 struct ViewHand {
   std::string name{};                                  ///< such as "glove 1"
-  std::shared_ptr<const grasping::HandModel> model{};  ///< null without fingers: only its force is shown
+  std::shared_ptr<const grasping::HandModel> model{};  ///< null: no fingers, only the force is shown
   std::vector<Eigen::Isometry3d> X_WL{};  ///< poses of the model's links; empty where the viewer moves the hand
 };
 
@@ -36,11 +36,11 @@ struct ViewScene {
   std::string title;
   std::vector<ViewObject> objects;
   std::vector<ViewHand> hands;
-  bool has_loop = true;  ///< a haptic loop moves it, whose ticks may be late and whose forces may be reduced
+  bool has_loop = true;  ///< a haptic loop moves the scene; its ticks may be late and its forces reduced
   std::optional<Eigen::Vector3d> p_WO_chosen{};
 
-  /// The origin O of everything that a viewer gets: the one chosen, or else the middle of the objects at their start.
-  /// Numbers in single precision are precise about that, wherever the scene is.
+  /// The origin O of all coordinates that a viewer gets: `p_WO_chosen`, or by default the middle of the objects at
+  /// their start. So single precision suffices even for a scene far from the world's origin.
   Eigen::Vector3d p_WO() const;
   /// The number of triangles of all objects.
   std::size_t triangles() const;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Shows a scene in browsers on this machine: a page over HTTP, and the motion over WebSocket, on one port.
+/// Shows a scene in browsers on this machine. One port serves the page over HTTP and the motion over WebSocket.
 
 #include <cstdint>
 #include <memory>
@@ -11,27 +11,29 @@
 
 namespace glissade::viewer {
 
-/// Serves at most 60 frames a second to each page, the next one only after the page has shown the last: a slow page
-/// misses frames, which it is told, and delays nobody. Answers only requests to this machine by its own name, so that
-/// no page of another site can look on. Its threads never run in the real-time class.
+/// Sends at most 60 frames a second to each page, and each frame only after the page has shown the last one. So a slow
+/// page misses frames and delays no other page. Each frame tells the page how many frames it has missed. The server
+/// answers only requests that address this machine by its own name, so pages of other sites cannot read the scene. The
+/// threads of the server never run in the real-time class.
 class ViewServer {
  public:
-  /// On this port of 127.0.0.1; 0: any that is free. Makes the first model; the whole one is made meanwhile, and pages
-  /// load it when it is there. Throws std::invalid_argument, naming the port, when it cannot be opened.
+  /// Opens `port` of 127.0.0.1; 0 opens any free port. Makes the first model. A thread makes the whole model, and pages
+  /// load the whole model once it is complete. Throws std::invalid_argument, naming the port, if the port cannot be
+  /// opened.
   explicit ViewServer(ViewScene scene, std::uint16_t port = 0);
   ViewServer(const ViewServer&) = delete;
   ViewServer& operator=(const ViewServer&) = delete;
-  /// Ends all connections. Pages are told that this is no failure, which takes at most 0.3 s.
+  /// Tells all pages that the end is no failure, which takes at most 0.3 s. Then ends all connections.
   ~ViewServer();
 
   std::uint16_t port() const noexcept;
   std::string url() const;
 
-  /// Whether any page has looked on so far. Any thread.
+  /// Whether any page has connected so far. Any thread may call this.
   bool has_had_client() const noexcept;
 
-  /// Takes the state of a tick. When the server lags behind by 1024 states, it misses the state. Wait-free,
-  /// no allocation; one thread.
+  /// Takes the state of a tick. If the server lags behind by 1024 states, the state is dropped. Wait-free, no
+  /// allocation. Only one thread may call this.
   void push(const devices::HapticState& state) noexcept;
 
  private:
