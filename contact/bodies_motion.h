@@ -12,7 +12,7 @@ class BodiesMotion {
  public:
   virtual ~BodiesMotion() = default;
 
-  /// Writes the poses X_WM of all movers at t, one entry for each mover.
+  /// Writes the pose X_WM of each mover at t, one entry for each mover.
   virtual void poses(double t, std::span<Eigen::Isometry3d> X_WM) const = 0;
   /// Upper bound (metres) of |x(t) − x(0)| for every point x of a mover and every t.
   virtual double length(std::size_t mover) const = 0;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Rigid bodies that move together, such as the links of a chain, among bodies that stand still. `CertifiedBodies`
-/// finds near contacts, and proves that a motion touches nothing on its whole path.
+/// Rigid bodies that move together among bodies that stand still, for example the links of a chain. `CertifiedBodies`
+/// finds near contacts. It also proves that a motion touches nothing on its whole path.
 
 #include <cstddef>
 #include <memory>
@@ -18,12 +18,13 @@ namespace glissade::contact {
 
 /// Numbers the bodies: first the fixed bodies, then the objects, then the movers. Objects stand still while movers
 /// move. Between two motions, the caller may place objects elsewhere. Only pairs of a mover with a fixed body or an
-/// object are considered. Not thread-safe. After the first few calls with the same bodies, only new contacts allocate.
+/// object are considered. Not thread-safe. After the first few calls with the same bodies, memory is allocated only for
+/// new contacts.
 class CertifiedBodies {
  public:
   /// `margin` (metres) is the gap to all other bodies at which the caller should stop the movers. A certified motion
-  /// keeps a gap of at least kMinClearanceOfMargin × `margin`. Throws std::invalid_argument when there is no mover, and
-  /// as `MultiPartSliding` does for bodies, poses and margins.
+  /// keeps a gap of at least kMinClearanceOfMargin × `margin`. Throws std::invalid_argument if there is no mover. Also
+  /// throws for the bodies, poses and margins for which `MultiPartSliding` throws.
   CertifiedBodies(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
                   const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin);
   CertifiedBodies(CertifiedBodies&&) noexcept;
@@ -34,26 +35,26 @@ class CertifiedBodies {
   std::size_t object_count() const;
   std::size_t mover_count() const;
   double margin() const;
-  /// The greatest of `margin()` and the margins of the obstacles.
+  /// The largest of these margins: `margin()` and the margins of the obstacles.
   double greatest_margin() const;
 
-  /// Places an object, or all movers, at rigid poses, without a proof for the path from the old poses. The pose of
-  /// mover i is X_WM[numbers[i]].
+  /// Places an object or all movers at rigid poses. The path from the old poses is not examined. The pose of mover i is
+  /// X_WM[numbers[i]].
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
   void place_movers(std::span<const Eigen::Isometry3d> X_WM, std::span<const std::size_t> numbers);
 
-  /// Whether every mover is apart from all fixed bodies and objects at the present poses. Exact; a distance within the
-  /// bound of rounding errors counts as touching.
+  /// Whether every mover is apart from all fixed bodies and objects at the present poses. Exact, except that a distance
+  /// below the bound of rounding errors counts as touching.
   bool is_free() const;
 
-  /// Finds everything within reach[i] (metres, at most 50 mm) of each mover i. A search covers a larger radius, and its
-  /// result serves later calls until the mover has moved by the difference. So movers that hardly move cost nothing.
-  /// Throws std::invalid_argument for a pose that is not rigid.
+  /// Finds all surfaces within reach[i] (metres, at most 50 mm) of each mover i. A search covers a radius larger than
+  /// the reach. Its result serves later calls until the mover has moved by the difference. So movers that hardly move
+  /// cost nothing. Throws std::invalid_argument for a pose that is not rigid.
   void look(std::span<const double> reach);
-  /// Number of pairs of triangles or boxes that the last search for a mover found. The calls below examine all these
-  /// pairs.
+  /// Number of pairs of triangles or boxes that the last search for a mover found. `find_contacts` and `certify`
+  /// examine all these pairs.
   std::size_t pair_count(std::size_t mover) const;
-  /// Rough work of all calls of `look`, `find_contacts` and `certify` so far, in the unit of
+  /// Approximate work of all calls of `look`, `find_contacts` and `certify` so far, in the unit of
   /// `SlidingRules::work_budget`.
   std::int64_t work() const;
 
@@ -62,9 +63,9 @@ class CertifiedBodies {
   /// are positive.
   void find_contacts(std::vector<Contact>& contacts);
 
-  /// Proves that `motion`, from the present poses, touches nothing. Returns false if there is no proof. `failures` then
-  /// has the contacts in the way, at the present poses. If `failures` is empty, the motion is too long. A motion longer
-  /// than the reach of the last `look` costs another search. Moves nothing.
+  /// Proves that `motion` from the present poses touches nothing. Returns false if no proof is found. `failures` then
+  /// has the contacts in the way, at the present poses. If the result is false and `failures` is empty, the motion is
+  /// too long. A motion longer than the reach of the last `look` costs another search. No body moves.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
   /// As `certify`. Also proves that the gap of every pair of bodies stays at least the margin of the pair minus
   /// `most_taken` (metres, less than `margin()`).

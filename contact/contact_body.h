@@ -20,9 +20,10 @@ namespace glissade::contact {
 class ObbTree;
 
 /// A mesh with its DOP-tree (a bounding-volume hierarchy), convex hull and topology. Immutable after construction, so
-/// safe to share between threads.
+/// threads may share it.
 struct ContactBody {
-  /// Throws std::invalid_argument for a null mesh, and otherwise as `DopTree` does. Cost O(n log n) for n triangles.
+  /// Throws std::invalid_argument for a null mesh. Also throws what the constructor of `DopTree` throws. Cost O(n log
+  /// n) for n triangles.
   explicit ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
   ContactBody(const ContactBody&) = delete;
   ContactBody& operator=(const ContactBody&) = delete;
@@ -31,9 +32,9 @@ struct ContactBody {
   collision::DopTree tree;
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
-  /// Selects the triangles that own a vertex that can stop another body. Half selects the triangles that own an edge
-  /// that can stop another body, because an edge stops only edges and vertices. `MeshTopology` assigns each edge and
-  /// each vertex to one triangle, its owner. The selected pairs are the pairs for which
+  /// `MeshTopology` assigns each edge and each vertex to one triangle, its owner. A triangle is selected if it owns a
+  /// vertex that can stop another body. A triangle is half selected if it owns an edge that can stop another body,
+  /// because an edge stops only edges and vertices. The selected pairs are the pairs for which
   /// `MeshTopology::can_stop_each_other` is true.
   collision::TriangleSelection features;
 
@@ -45,16 +46,16 @@ struct ContactBody {
 /// The largest allowed distance of a compliance point from the centre of the part's bounding box, in radii of the part.
 inline constexpr double kFarthestPoint = 10.0;
 
-/// A part that a hand or a script moves, in its own frame V. A displacement of the part is the translation of a
+/// A part that a hand or a script moves. V is the frame of the part. A displacement of the part is the translation of a
 /// reference point and a rotation about that point. The coupling, i.e. the virtual spring between hand and part, acts
-/// at the same point, which is therefore called the compliance point. A force at the compliance point turns the part
-/// little. So a peg coupled at its tip finds its hole, whereas a peg coupled at its middle tips and jams. Hands with
-/// fingers are coupled where they grip the part (`MultiPartSliding::grasp`), unless the compliance point was given to
-/// the constructor.
+/// at the same point. Therefore the reference point is also called the compliance point. A force at the compliance
+/// point hardly turns the part. So a peg coupled at its tip finds its hole, whereas a peg coupled at its middle tips
+/// and jams. The coupling of a hand with fingers acts where the fingers grip the part (see `MultiPartSliding::grasp`),
+/// unless the constructor was given a compliance point.
 class SlidingPart : public ContactBody {
  public:
-  /// The compliance point is the centre of the bounding box, so a rotation moves the points of the part little. Throws
-  /// as `ContactBody` does.
+  /// The compliance point is the centre of the bounding box, so the points of the part move little in a rotation.
+  /// Throws what the constructor of `ContactBody` throws.
   explicit SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
 
   /// The compliance point is `p_Vref` (metres). Also throws std::invalid_argument if `p_Vref` is not finite, or is
@@ -63,7 +64,7 @@ class SlidingPart : public ContactBody {
 
   const Eigen::Vector3d& p_Vref() const { return p_Vref_; }
   bool has_chosen_point() const { return has_chosen_point_; }
-  /// ρ: the largest distance of a vertex from the reference point, metres.
+  /// The radius ρ of the part: the largest distance (metres) of a vertex from the reference point.
   double radius() const { return radius_; }
 
  private:
@@ -72,8 +73,8 @@ class SlidingPart : public ContactBody {
   double radius_;
 };
 
-/// Loads a body from a mesh file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. Drops
-/// the warnings and counts of `geometry::import_mesh`: call that function to see what was left out. Throws
+/// Loads a body from a mesh file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. The
+/// warnings and counts of `geometry::import_mesh` are lost. Call `geometry::import_mesh` to get them. Throws
 /// std::invalid_argument, naming the file, as `geometry::import_mesh` does.
 std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale = 1.0);
 /// As `load_body`, for a part. The compliance point is the centre of the bounding box.
@@ -85,7 +86,7 @@ struct Obstacle {
   Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
   std::string name = "an obstacle";  ///< for messages
   /// The gap (metres) at which contacts with this obstacle stop a part. The default is the margin of the part. A
-  /// smaller margin allows a tighter fit, a larger margin leaves more clearance. At most kGreatestMargin_m
+  /// smaller margin allows a tighter fit. A larger margin leaves more clearance. At most kGreatestMargin_m
   /// (`sliding_rules.h`).
   std::optional<double> margin{};
 };

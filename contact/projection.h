@@ -1,8 +1,8 @@
 #pragma once
 
-/// The constraints of contacts on the displacements of parts, and the quadratic programme at the heart of sliding.
-/// Among the displacements that half-space constraints allow, the programme finds the displacement nearest to the
-/// wanted displacement, in the metric of the coupling stiffness.
+/// The constraints of contacts on the displacements of parts, and the quadratic programme of a sliding step. The
+/// programme finds the displacement nearest to the wanted displacement among the displacements that half-space
+/// constraints allow. Distances are measured in the metric of the coupling stiffness.
 
 #include <array>
 #include <cstddef>
@@ -34,7 +34,7 @@ struct ConstraintRow {
 struct CoupledRow : ConstraintRow {
   std::int32_t part = 0;
   std::int32_t other = -1;                            ///< number of the other part; −1: an obstacle
-  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< as r, for the other part
+  Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< like r, for the other part
 
   double velocity(std::span<const geometry::Displacement> d) const {
     const double own = ConstraintRow::velocity(d[static_cast<std::size_t>(part)]);
@@ -47,8 +47,9 @@ enum class ProjectionStatus : std::uint8_t { kSolved, kInfeasible, kIterationLim
 
 inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
 
-/// `active` are the rows that hold with equality and push. `force` (newtons) is the multiplier of each active row: the
-/// row's share of K (ξ − ξ*), a force along the row's normal. `displacements` is valid only with kSolved.
+/// `active` has the indices of the rows that hold with equality and push. `force` has the multiplier (newtons) of each
+/// active row. The multiplier is the row's share of K (ξ − ξ*), i.e. a force along the row's normal. `displacements` is
+/// valid only with kSolved.
 template <std::size_t kParts>
 struct Projection {
   ProjectionStatus status = ProjectionStatus::kSolved;
@@ -62,12 +63,12 @@ struct Projection {
 
 using CoupledProjection = Projection<kMaxParts>;
 
-/// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows, by the dual active-set method of Goldfarb and Idnani
-/// (1983) in the whitened coordinates K^½ ξ, with six coordinates for each part. The normals of the active rows are
+/// Minimises ½ (ξ − wanted)ᵀ K (ξ − wanted) subject to rows. The method is the dual active-set method of Goldfarb and
+/// Idnani (1983) in the whitened coordinates K^½ ξ. Each part has six coordinates. The normals of the active rows are
 /// stored as an orthonormal basis and a triangular factor, so a change of the active set costs some hundred operations.
 ///
-/// The work is bounded: at most 32 + 4 · rows changes of the active set, at a cost of O(rows) each. Deterministic. Not
-/// thread-safe.
+/// The work is bounded: the active set changes at most 32 + 4 · rows times, and each change costs O(rows).
+/// Deterministic. Not thread-safe.
 class ProjectionSolver {
  public:
   /// Allocates memory for `rows` rows of one part. A call allocates only if it has more rows than any earlier call.
@@ -76,7 +77,7 @@ class ProjectionSolver {
   Projection<1> project(const geometry::Displacement& wanted, const CouplingStiffness& stiffness,
                         std::span<const ConstraintRow> rows);
 
-  /// As the other `project`, for up to kMaxParts parts. `wanted` and `stiffness` have one entry for each part. A part
+  /// Like the other `project`, for up to kMaxParts parts. `wanted` and `stiffness` have one entry for each part. A part
   /// of infinite stiffness stands still.
   CoupledProjection project(std::span<const geometry::Displacement> wanted,
                             std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows);

@@ -24,15 +24,15 @@ struct SlidingOptions {
   SlidingRules rules{};
 };
 
-/// A part that moves on its own or in the other hand. A script gives the poses of the part's ghost over time. The part
-/// follows the script as far as contacts allow.
+/// A part that moves by a script, for example in the other hand. The script gives the poses of the part's ghost over
+/// time. The part follows the script as far as contacts allow.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
   std::chrono::nanoseconds start{0};  ///< script time at which the simulation begins
-  /// Stiffness against translation, k_t; the stiffness against rotation is k_t ρ², with ρ the radius of the part. The
-  /// default is a thousand times the default stiffness of a hand, so the scripted part pushes other parts and hardly
-  /// yields. With the stiffness of a hand, the script acts as another hand.
+  /// Stiffness k_t against translation. The stiffness against rotation is k_t ρ², where ρ is the radius of the part.
+  /// The default is a thousand times the default stiffness of a hand, so the scripted part pushes other parts and
+  /// hardly yields. With the stiffness of a hand, the scripted part yields as if another hand held it.
   double grip_N_per_m = 1e6;
   std::string name = "a moving part";  ///< for messages
 };
@@ -40,9 +40,9 @@ struct ScriptedPart {
 /// Converts a scripted part for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
 HeldPart held_by_script(const ScriptedPart& part);
 
-/// The simulation of one part among fixed obstacles and scripted parts: `MultiPartSliding` with the part first and the
-/// scripted parts after it. Deterministic: the same calls give the same bits. Not thread-safe; several simulations may
-/// share bodies.
+/// The simulation of one part among fixed obstacles and scripted parts. Sliding is a `MultiPartSliding` whose part 0 is
+/// the part; the scripted parts follow. Deterministic: the same calls give the same bits. Not thread-safe; several
+/// simulations may share bodies.
 class Sliding {
  public:
   /// Throws std::invalid_argument as `MultiPartSliding` does.
@@ -50,15 +50,15 @@ class Sliding {
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
           const std::vector<ScriptedPart>& scripted = {});
 
-  /// The hand grasps the part, or grasps it anew. From now on the ghost is at X_WG, even if the part is elsewhere.
-  /// Nothing moves in this call. The metaphor determines how the next calls of `advance` treat the offset between ghost
-  /// and part:
+  /// The hand grasps the part, also if the hand holds the part already. From now on the ghost is at X_WG, even if the
+  /// part is elsewhere. The part does not move in this call. The metaphor determines how the next calls of `advance`
+  /// treat the offset between ghost and part:
   /// - With `force-feedback` the part closes the offset at a limited speed. Meanwhile the offset exerts no force on the
   ///   hand.
   /// - With the rubber bands the part closes the offset at unlimited speed.
   /// - With `incremental` the part keeps the offset, so that `release` and `grasp` act as a clutch.
   ///
-  /// The hand holds the part from the start; `grasp` is required only after `release`. Ignores poses that
+  /// The hand holds the part from the start, so `grasp` is required only after `release`. Ignores poses that
   /// `geometry::rigid_pose` rejects.
   void grasp(const Eigen::Isometry3d& X_WG) { sliding_.grasp(0, X_WG); }
 
@@ -68,7 +68,7 @@ class Sliding {
 
   /// Moves the visible part towards its target (`SlidingResult::X_WT`) for the ghost at X_WG. Call this once per
   /// millisecond of motion. `geometry::rigid_pose` corrects X_WG to a rotation and translation. The part stands still
-  /// if `rigid_pose` rejects X_WG or if the part is released. `milliseconds`, finite and not negative, is the time
+  /// if `rigid_pose` rejects X_WG or if the part is released. `milliseconds` (finite and not negative) is the time
   /// between the ghost poses of the last call and of this call. A caller that is late passes the whole time, so that
   /// the part catches up. Scripts advance by `milliseconds` in any case.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
@@ -78,15 +78,15 @@ class Sliding {
   const CouplingStiffness& stiffness() const { return sliding_.stiffness(0); }
   /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
   double margin() const { return sliding_.margin(0); }
-  /// As `MultiPartSliding::lag`.
+  /// See `MultiPartSliding::lag`.
   geometry::Displacement lag() const { return sliding_.lag(0); }
   /// Visible poses of the scripted parts, in the order given to the constructor.
   std::span<const Eigen::Isometry3d> scripted_X_WB() const { return scripted_X_WB_; }
   const SearchStatistics& search_statistics() const { return sliding_.search_statistics(); }
   const CallStatistics& call_statistics() const { return sliding_.call_statistics(); }
 
-  /// Minimum clearance (metres): in every step, the part provably keeps this distance from obstacles that have no
-  /// margin of their own. A step that starts nearer to an obstacle keeps 95 % of the distance at the start of the step.
+  /// The minimum clearance (metres). In every step, the part provably keeps this distance from obstacles that have no
+  /// margin of their own. A step that starts nearer to an obstacle keeps 95 % of its initial distance.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
 
  private:

@@ -12,12 +12,12 @@ namespace glissade::contact {
 
 /// The lag of a part is the displacement from the visible part to its target (`SlidingResult`). Under force feedback,
 /// the lag changes in a millisecond by at most kSlew_m (metres) plus the motion of the ghost. With several parts, the
-/// motions of all ghosts are added. This limit bounds the change of the force when the part snaps into a gap.
+/// bound includes the motions of all ghosts. This limit bounds the change of the force when the part snaps into a gap.
 inline constexpr double kSlew_m = 0.2e-3;
 
-/// Stiffness of the spring against translation (N/m) of the part's reference point and rotation (Nm/rad) about it. The
-/// simulation projects the wanted displacement of the part on the displacements that the contacts allow. The stiffness
-/// is also the metric of this projection.
+/// Stiffness of the spring against translation (N/m) of the part's reference point, and against rotation (Nm/rad) about
+/// this point. The simulation projects the wanted displacement of the part on the displacements that the contacts
+/// allow. The stiffness is also the metric of this projection.
 struct CouplingStiffness {
   double translational;
   double rotational;
@@ -38,7 +38,7 @@ struct Wrench {
   Eigen::Vector3d t = Eigen::Vector3d::Zero();
 };
 
-/// The wrench times a factor.
+/// The wrench, multiplied by a factor.
 inline Wrench scaled(const Wrench& wrench, double factor) {
   return {factor * wrench.f, factor * wrench.t};
 }
@@ -46,10 +46,10 @@ inline Wrench scaled(const Wrench& wrench, double factor) {
 /// Converts a wrench about the point `from` to the point `to`. Both points are in world coordinates (metres).
 Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
-/// The spring's wrench on the hand about the ghost's reference point: −K ξ*. K is `stiffness`, and ξ* is `error`, the
-/// displacement from the visible part to its target. Exactly zero when `error` is zero. Because K is the metric of the
-/// projection, the wrench on a part at rest is a sum of forces along contact normals. So the hand feels no friction,
-/// unless `SlidingRules::friction` is set.
+/// The spring's wrench −K ξ* on the hand about the ghost's reference point. K is `stiffness`. ξ* is `error`, the
+/// displacement from the visible part to its target. The wrench is exactly zero if `error` is zero. Because K is the
+/// metric of the projection, the wrench on a part at rest is a sum of forces along contact normals. So the hand feels
+/// no friction, unless `SlidingRules::friction` is set.
 Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 
 }  // namespace glissade::contact

@@ -8,11 +8,12 @@
 
 namespace glissade::contact {
 
-/// The work of searches for contacts and for the pairs of triangles and boxes that the next steps must certify.
+/// The work of searches. A search finds contacts, and the pairs of triangles and boxes that the next steps must
+/// certify.
 struct SearchStatistics {
   std::int64_t searches = 0;  ///< number of searches whose answers were used
   /// The sum of the reports of these searches. The stages of `reports` cover the search for near bodies.
-  /// `reports.total` also includes the search among triangles, and the time in which a search waits for its share of
+  /// `reports.total` also includes the search among triangles, and the time for which a search waits for its share of
   /// work. With a search thread, times and stages differ from run to run, because the pipeline loses its memory when a
   /// search is ended early.
   collision::FrameReport reports;
