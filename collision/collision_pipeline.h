@@ -22,25 +22,26 @@
 namespace glissade::collision {
 
 /// Deterministic: the answers of a frame depend only on the objects, their poses, the enabled pairs and the distance of
-/// the frame, not on the number of threads or on earlier frames. Not thread-safe, but other threads may edit the world
-/// and move its objects at any time. If memory runs out in a frame that several threads share, the program ends.
+/// the frame. They do not depend on the number of threads or on earlier frames. Not thread-safe, but other threads may
+/// edit the world and move its objects at any time. If memory runs out in a frame that several threads share, the
+/// program ends.
 class CollisionPipeline {
  public:
-  /// Becomes the only consumer of `world`, i.e. the caller of `World::take_changes`. World and clock must outlive the
-  /// pipeline. The clock serves measurement only. Throws std::invalid_argument if `options` has a `greatest_distance`
-  /// that is negative or not finite, or a negative number of threads.
+  /// The pipeline becomes the only consumer of `world`: only the pipeline may call `World::take_changes`. World and
+  /// clock must outlive the pipeline. The clock is used for measurements only. Throws std::invalid_argument if the
+  /// `greatest_distance` of `options` is negative or not finite, or if the number of threads is negative.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
   CollisionPipeline(const CollisionPipeline&) = delete;
   CollisionPipeline& operator=(const CollisionPipeline&) = delete;
 
-  /// Computes a frame with the newest poses: finds all enabled pairs of objects that meet. Two objects meet if their
+  /// Computes a frame with the newest poses. Finds all enabled pairs of objects that meet. Two objects meet if their
   /// distance is at most `distance` (metres). With `distance` 0, objects meet if their surfaces touch or intersect. The
-  /// answers are exact: they are the answers of the queries of `dop_query.h` at the pose X_AB given by `relative_pose`.
-  /// With PairQuery::kClosePairs, two objects that both have a selection of triangles (`ObjectDescription`) meet only
-  /// if a selected pair of triangles is within `distance`. The other values of `PairQuery` ignore selections. The next
-  /// call overwrites the result. Throws std::invalid_argument for a distance that is negative, not a number, or greater
-  /// than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
+  /// answers are exact: they equal the answers of the queries of `dop_query.h` at the pose X_AB that `relative_pose`
+  /// computes. With PairQuery::kClosePairs, two objects that both have a selection of triangles (`ObjectDescription`)
+  /// meet only if a selected pair of triangles is within `distance`. The other values of `PairQuery` ignore selections.
+  /// The next call overwrites the result. Throws std::invalid_argument if `distance` is negative, not a number, or
+  /// greater than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
 
   /// The result of the last `step`. Before the first `step`, its frame number is 0.
@@ -56,7 +57,8 @@ struct CollisionThreadOptions {
   /// The `distance` (metres) of `CollisionPipeline::step`. At most `pipeline.greatest_distance`.
   double distance = 0.0;
   /// Time from the beginning of one frame (one `CollisionPipeline::step`) to the beginning of the next. If a frame
-  /// takes longer than the period, the next frame begins at once. Missed frames are not made up for.
+  /// takes longer than the period, the next frame begins at once. No additional frames are computed to compensate for
+  /// the delay.
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   /// Number of readers, at least 1. Each thread that reads results needs its own reader.
   int readers = 1;
@@ -66,7 +68,7 @@ struct CollisionThreadOptions {
 /// allocate nothing.
 class FrameReader {
  public:
-  /// Takes the newest frame. Returns whether it is newer than the frame of the last `update`.
+  /// Takes the newest frame. Returns whether this frame is newer than the frame of the last `update`.
   bool update() noexcept { return frames_.update(); }
 
   /// The frame of the last `update`. The frame number is 0 until an `update` has taken a frame. The frame does not
@@ -82,8 +84,8 @@ class FrameReader {
 /// serves one thread, and any thread may use the world.
 class CollisionThread {
  public:
-  /// World and clock must outlive the thread. No other pipeline may work on this world. Throws std::invalid_argument
-  /// for options out of range, and std::system_error if no thread can be started.
+  /// World and clock must outlive the thread. No other pipeline may use this world. Throws std::invalid_argument for
+  /// options out of range. Throws std::system_error if no thread can be started.
   CollisionThread(World& world, realtime::Clock& clock, const CollisionThreadOptions& options = {});
   CollisionThread(const CollisionThread&) = delete;
   CollisionThread& operator=(const CollisionThread&) = delete;
@@ -93,7 +95,7 @@ class CollisionThread {
   /// numbers.
   FrameReader& reader(int number = 0) { return *readers_.at(static_cast<std::size_t>(number)); }
 
-  /// Ends the thread after the current frame, which is still published. Blocks until the thread has ended.
+  /// Completes and publishes the current frame, then ends the thread. Blocks until the thread has ended.
   void stop() { thread_->stop(); }
 
   /// Timing statistics of the frames, valid once `stop` has returned.

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The convex hull of an object, and the test whether two hulls are apart (paper §2.2). A hull encloses an object much
+/// The convex hull of an object, and a test of whether two hulls are apart (paper §2.2). A hull encloses an object much
 /// more tightly than a box, and the test takes nanoseconds for a pair that moves little between queries.
 
 #include <algorithm>
@@ -18,8 +18,8 @@ namespace glissade::collision {
 
 struct HullFacets;
 
-/// A convex hull, also of coplanar, collinear or coincident points. Immutable after construction, so safe to share
-/// between objects and threads.
+/// A convex hull. The points may be coplanar, collinear or coincident. Immutable after construction, so objects and
+/// threads may share it.
 class ConvexHull {
  public:
   /// The hull of points in the frame of the object (metres). Throws std::invalid_argument if there is no point or if a
@@ -40,7 +40,7 @@ class ConvexHull {
                  static_cast<std::size_t>(first_neighbor_[v + 1] - first_neighbor_[v]));
   }
 
-  /// 3 for a solid, 2 for a polygon, 1 for a segment, 0 for a point.
+  /// The dimension of the hull: 3 for a solid, 2 for a polygon, 1 for a segment, 0 for a point.
   int dimension() const { return dimension_; }
 
   /// Centre of the axis-aligned bounding box of the corners, and the largest distance of a corner from this centre
@@ -52,21 +52,22 @@ class ConvexHull {
   /// are proportional to this distance.
   double reach() const { return reach_; }
 
-  /// The largest distance (metres) of an input point from the hull of `vertices()`. Qhull omits points that lie nearly
-  /// in a face.
+  /// The largest distance (metres) by which an input point lies outside the hull of `vertices()`. The distance can be
+  /// positive because Qhull omits points that lie nearly in a face.
   double outside() const { return outside_; }
 
   /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
   /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
-  /// `climbing_error`. The cost is proportional to the number of corners on the way and their neighbors. The way has
-  /// about √n corners from an arbitrary start. The way is very short if `start` is the result for a similar direction.
+  /// `climbing_error`. The cost is proportional to the number of corners on the path and of their neighbors. From an
+  /// arbitrary start, the path has about √n corners. The path is very short if `start` is the result for a similar
+  /// direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
 
-  /// A start for `support` when no better start is known: the corner farthest along some direction within a few degrees
-  /// of `direction`. Cost O(1).
+  /// A corner at which `support` can start if no better start is known. The corner is the farthest along some direction
+  /// within a few degrees of `direction`. Cost O(1).
   std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
 
-  /// Upper bound (metres) of the error of `support`: another corner may be farther along the direction by at most this
+  /// Upper bound (metres) of the error of `support`. Another corner may be farther along the direction by at most this
   /// length. The search stops where rounding hides the difference between neighbors, as on narrow facets.
   double climbing_error() const { return climbing_error_; }
 
@@ -99,7 +100,7 @@ class ConvexHull {
 inline std::size_t ConvexHull::cell_of(const Eigen::Vector3d& direction) {
   Eigen::Index axis = 0;
   const double largest = direction.cwiseAbs().maxCoeff(&axis);
-  // Maps −1 to 1 along each side of a face to its cells. A direction of zero length has a cell, too.
+  // Maps −1 to 1 along each side of a face to its cells. A direction of zero length also has a cell.
   const double scale = largest > 0.0 ? 0.5 * kCells / largest : 0.0;
   const auto cell = [&](Eigen::Index i) {
     return std::clamp(static_cast<int>(direction[i] * scale + 0.5 * kCells), 0, kCells - 1);
@@ -125,7 +126,7 @@ inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::i
   return best;
 }
 
-/// The test of two hulls. It runs if the plane of the last query no longer separates the hulls.
+/// The method of the test of two hulls. The test runs if the plane of the last query no longer separates the hulls.
 enum class HullTest : std::uint8_t {
   kExact,  ///< complete GJK, started from the simplex of the last query; exact up to rounding, see `hulls_apart`
   /// Up to 300 learning steps of a perceptron (paper §2.2). Each step turns a trial plane. The answer "apart" is
@@ -133,43 +134,43 @@ enum class HullTest : std::uint8_t {
   kPerceptron,
 };
 
-/// Results of the last query of a pair of hulls. They speed up the next query. They do not change the answer, except
-/// where rounding leaves the answer open. Keep one `HullMemory` for each pair of objects, and always pass the two hulls
-/// in the same order. Not thread-safe.
+/// Results of the last query of a pair of hulls, which speed up the next query. They do not change the answer, except
+/// where rounding leaves the answer undecided. Keep one `HullMemory` for each pair of objects, and always pass the two
+/// hulls in the same order. Not thread-safe.
 struct HullMemory {
-  /// The separating plane. It is stored twice: fixed to A (n_A, reach_A), and fixed to B (n_B, reach_B). Normals are
+  /// The separating plane, stored twice: once fixed to A (n_A, reach_A), once fixed to B (n_B, reach_B). Normals are
   /// unit vectors from A to B.
   Eigen::Vector3d n_A = Eigen::Vector3d::Zero();
   Eigen::Vector3d n_B = Eigen::Vector3d::Zero();
   double reach_A = 0.0;  ///< extent of A along n_A from the origin of A, metres
   double reach_B = 0.0;  ///< extent of B along −n_B from the origin of B, metres
 
-  /// A lower bound of the distance of the hulls in metres, if the last answer was that they are apart; otherwise 0. The
-  /// bound is measured along n_gap_A, a unit vector from A to B in the frame of A.
+  /// A lower bound (metres) of the distance of the hulls if the last answer was "apart"; otherwise 0. The bound is
+  /// measured along n_gap_A, a unit vector from A to B in the frame of A.
   double gap = 0.0;
   Eigen::Vector3d n_gap_A = Eigen::Vector3d::Zero();
 
   std::int32_t corner_A = 0;  ///< corner of A at which `support` starts
   std::int32_t corner_B = 0;
-  /// GJK's last simplex: for each point a corner of A and a corner of B.
+  /// The last simplex of GJK. Each point has a corner of A and a corner of B.
   std::array<std::array<std::int32_t, 2>, 4> simplex{};
   std::int8_t simplex_count = 0;
   std::int8_t planes_to_leave = 0;  ///< number of new planes to keep as found, without an attempt to widen their gap
   bool has_plane = false;
-  bool by_centers = false;  ///< the line between the centres decided after a large movement
+  bool by_centers = false;  ///< the line between the centres gave the last answer, after a large movement
   bool met = false;         ///< the last answer was that the hulls may meet
 
   std::int32_t loops = 0;  ///< learning steps and rounds of GJK in the last query
 };
 
-/// Whether two hulls are certainly apart, at the pose X_AB of B in the frame of A. Touching hulls are not apart. With
-/// HullTest::kExact the answer is exact for the points from which the hulls were made, with one exception: if the gap
+/// Whether two hulls are certainly apart. X_AB is the pose of B in the frame of A. Touching hulls are not apart. With
+/// HullTest::kExact, the answer is exact for the points from which the hulls were made, with one exception: if the gap
 /// is no larger than rounding errors, the answer is false. Such gaps are at most the `ConvexHull::outside` of both
 /// hulls plus 1e-13 of the sum of all coordinates involved (1e-11 of this sum for hulls like needles).
 ///
-/// Allocates nothing. Cost: about 20 ns while the remembered plane or simplex decides; otherwise less than a
-/// microsecond after a small movement, and some microseconds after a large movement. The cost is bounded in any case.
-/// Different threads may query the same hulls, each with its own `HullMemory`.
+/// Allocates nothing. The cost is about 20 ns while the plane or simplex in the `HullMemory` decides. Otherwise it is
+/// less than a microsecond after a small movement, and some microseconds after a large movement. The cost is always
+/// bounded. Different threads may query the same hulls, each with its own `HullMemory`.
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
                  HullTest test = HullTest::kExact) noexcept;
 

@@ -24,23 +24,24 @@ class DopVertices;
 
 /// How a query encloses the nodes of one tree in DOPs aligned to the other tree.
 enum class Realignment {
-  kAffine,      ///< each new plane offset combines three old offsets: O(k) (paper §2.1, eq. 1)
+  kAffine,      ///< computes each new plane offset from three old offsets: O(k) (paper §2.1, eq. 1)
   kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 
-/// Options of construction. The defaults are the fastest values; other values are for comparisons.
+/// Options of construction. The defaults are the fastest values. Other values serve comparisons.
 struct DopTreeOptions {
   int directions = 24;  ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
-  /// Adds to each child a slab along the principal axis of its triangles' normals. The slab is tested if it is thinner
-  /// than half of the thinnest slab of the child's DOP.
+  /// Adds to each child a slab along the principal axis of its triangles' normals. A query tests the slab if the slab
+  /// is less than half as thick as the thinnest slab of the child's DOP.
   bool thin_slab = true;
   Realignment realignment = Realignment::kAffine;
 
   bool operator==(const DopTreeOptions&) const = default;
 };
 
-/// The children of a node: first the nodes, then the leaves. Nodes and leaves of a tree are numbered separately. The
-/// nodes among the children have consecutive numbers, and so have the leaves.
+/// The children of a node. Children that are nodes come first, then children that are leaves. Nodes and leaves of a
+/// tree are numbered separately. The nodes among the children have consecutive numbers. The leaves among the children
+/// also have consecutive numbers.
 struct TreeNode {
   std::uint32_t first_node;  ///< number of the first child that is a node
   std::uint32_t first_leaf;  ///< number of the first child that is a leaf
@@ -56,10 +57,10 @@ struct TreeNode {
   }
 };
 
-/// A bounding-volume hierarchy in the object's own frame, made of nodes with up to four children and leaves with up to
-/// four triangles.
+/// A bounding-volume hierarchy in the object's own frame. Nodes have up to four children, and leaves have up to four
+/// triangles.
 ///
-/// Thread-safety: any number of threads may query a tree at once. During `refit` no other thread may use it.
+/// Thread-safety: any number of threads may query a tree at once. During `refit`, no other thread may use the tree.
 class DopTree {
  public:
   /// Maximum number of children of a node, and of triangles of a leaf.
@@ -68,9 +69,15 @@ class DopTree {
   /// Builds the hierarchy by a binned surface-area heuristic, with several threads if the mesh is large. The result
   /// does not depend on the number of threads. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument for a null mesh, for a mesh without a triangle of positive area, for more than 5
-  /// million triangles, for an index out of range, for a coordinate that is not finite or beyond ±1e9, and for an
-  /// unsupported number of directions. Cost O(n log n).
+  /// Throws std::invalid_argument for
+  /// - a null mesh
+  /// - a mesh without a triangle of positive area
+  /// - more than 5 million triangles
+  /// - an index out of range
+  /// - a coordinate that is not finite or beyond ±1e9
+  /// - an unsupported number of directions
+  ///
+  /// Cost O(n log n).
   explicit DopTree(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const DopTreeOptions& options = {});
   DopTree(const DopTree& other);
   DopTree(DopTree&&) noexcept;
@@ -78,7 +85,7 @@ class DopTree {
   DopTree& operator=(DopTree&&) noexcept;
   ~DopTree();
 
-  /// Fits all DOPs to the present vertices, after the owner of the mesh has moved vertices. The vertex indices of
+  /// Fits all DOPs to the present vertices. Call this after moving vertices of the mesh. The vertex indices of
   /// triangles must be unchanged. Queries stay exact, but become slower as triangles below one node move apart.
   /// Allocates nothing. Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would
   /// reject; the tree is then unchanged.
@@ -89,18 +96,18 @@ class DopTree {
 
   std::size_t node_count() const;
   std::size_t leaf_count() const;
-  /// The node with this number, which must be below `node_count`. Node 0 is the root; the root has at least one child.
+  /// The node with this number, which must be below `node_count`. Node 0 is the root, which has at least one child.
   TreeNode node(std::uint32_t number) const;
   /// The triangles of the leaf with this number, which must be below `leaf_count`, as indices into the mesh. A negative
   /// entry is an unused place or a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
-  /// A number that identifies the tree and its fit, unique in this process and never 0. Construction and each `refit`
-  /// give a new number. A copy has the number of the original.
+  /// A number that identifies the tree and its fit. The number is unique in this process and never 0. Construction and
+  /// each `refit` assign a new number. A copy has the number of the original.
   std::uint64_t id() const { return id_; }
 
   std::int64_t degenerate_triangles() const { return degenerate_triangles_; }
-  /// Levels of nodes below the root, leaves not counted.
+  /// Number of levels of nodes below the root. Leaves do not count.
   int depth() const { return depth_; }
   /// Centre of the axis-aligned bounding box, and radius of a sphere about this centre that encloses every vertex
   /// (metres).
@@ -108,7 +115,7 @@ class DopTree {
   double radius() const { return radius_; }
   /// 1 / radius.
   double inverse_radius() const { return inverse_radius_; }
-  /// Half the edge lengths of the bounding box in metres, rounded up.
+  /// Half of each edge length of the bounding box (metres), rounded up.
   const Eigen::Vector3d& half_size() const { return half_size_; }
 
   /// Bytes of the tree itself, without the shared mesh.

@@ -1,16 +1,18 @@
 #pragma once
 
-/// Files of DOP-trees next to mesh files. They save a program from rebuilding the tree of a large mesh in every run.
+/// Cache files of DOP-trees next to mesh files. With a cache file, a program does not rebuild the tree of a large mesh
+/// in every run.
 ///
-/// A file holds the shape of a tree only: which triangles share a leaf, and which leaves and nodes share a parent.
-/// Reading checks that the shape is one tree of all triangles, and fits the bounding volumes to the given mesh. So a
-/// damaged or forged file is either rejected or gives a tree with correct answers. With 100,000 triangles, building a
-/// tree takes 102 ms of processor time, and reading it from a file takes 31 ms. The file takes 4.4 bytes a triangle.
+/// A file holds only the shape of a tree, i.e. which triangles share a leaf, and which leaves and nodes share a parent.
+/// The reader checks that the shape is one tree of all triangles. Then the reader fits the bounding volumes to the
+/// given mesh. So a damaged or forged file is either rejected or gives a tree with correct answers. With 100,000
+/// triangles, building a tree takes 102 ms of processor time, and reading it from a file takes 31 ms. The file takes
+/// 4.4 bytes a triangle.
 ///
 /// A file is valid only for the same vertices and triangles, the same options, and the same version of the format. The
-/// version also changes when the method of building changes. The byte order is the same on every machine. The last
-/// eight bytes are a checksum of all other bytes. The checksum detects every change of a single byte. It misses one in
-/// 2^64 of all other changes.
+/// version of the format also changes when the method of building changes. The byte order is the same on every machine.
+/// The last eight bytes are a checksum of all other bytes. The checksum detects every change of a single byte, and
+/// misses one in 2^64 of all other changes.
 
 #include <cstddef>
 #include <filesystem>
@@ -43,28 +45,29 @@ struct CachedTree {
 /// The cache file of a mesh file: the name of the mesh file followed by ".dop-tree".
 std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
 
-/// Writes or replaces the file. The file has another name until it is complete, and is deleted if it cannot be
-/// completed. So `path` never names an incomplete file. Anything but a regular file, such as a symbolic link, is not
-/// replaced. Throws std::runtime_error with one line that names the file and the reason. May block on the disk.
+/// Writes or replaces the file. The file has another name until it is complete. A file that cannot be completed is
+/// deleted. So `path` never names an incomplete file. Only a regular file is replaced, not a symbolic link, for
+/// example. Throws std::runtime_error with one line that names the file and the reason. May block on the disk.
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
-/// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error: see `CachedTree::state`.
-/// Throws for the meshes and options for which DopTree throws. Cost O(n log n). May block on the disk.
+/// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error, see `CachedTree::state`.
+/// Throws for the same meshes and options as the constructor of DopTree. Cost O(n log n). May block on the disk.
 CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
                            const DopTreeOptions& options = {});
 
-/// As `read_tree_cache`, from the bytes of a file.
+/// Like `read_tree_cache`, from the bytes of a file.
 CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                                  const DopTreeOptions& options = {});
 
-/// A tree, and a note about its file.
+/// A tree, and a note about its cache file.
 struct LoadedTree {
   DopTree tree;
   std::string note;  ///< one line that names the file; empty if the file was read, or was missing and is now written
 };
 
 /// Reads the tree from the cache file of `mesh_path`. If that file is missing or unusable, builds the tree and writes
-/// the file. The note reports a file that is unusable or cannot be written. Throws as DopTree does.
+/// the file. The note reports a file that is unusable or cannot be written. Throws what the constructor of DopTree
+/// throws.
 LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
                               const std::shared_ptr<const geometry::TriangleMesh>& mesh,
                               const DopTreeOptions& options = {});

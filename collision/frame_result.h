@@ -1,6 +1,6 @@
 #pragma once
 
-/// Result of one frame of the collision pipeline, with the work and time of each stage.
+/// Result of one frame of the collision pipeline, with the work and duration of each stage.
 
 #include <chrono>
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace glissade::collision {
 
 /// The details that a pipeline computes for pairs of objects that meet.
 enum class PairQuery : std::uint8_t {
-  kVerdict,        ///< only whether two objects meet
+  kVerdict,        ///< only that two objects meet
   kTrianglePairs,  ///< also the triangle pairs within the distance given to the step
   /// Also the closest points of each triangle pair. If both objects have a selection (`ObjectDescription`), only
   /// selected triangle pairs count.
@@ -25,18 +25,19 @@ enum class PairQuery : std::uint8_t {
 
 struct PipelineOptions {
   PairQuery query = PairQuery::kVerdict;
-  /// The test of convex hulls in the stage of separating planes. It affects only the duration of a frame, not the
-  /// result.
+  /// The test of convex hulls in the stage of separating planes. The choice affects only the duration of a frame, not
+  /// the result.
   HullTest hull_test = HullTest::kExact;
   /// Upper limit (metres) of the distance given to `CollisionPipeline::step`.
   double greatest_distance = 0.0;
-  /// Number of threads that work on a frame, including the calling thread. 0: one thread for each processor.
+  /// Number of threads that work on a frame, including the calling thread. 0 means one thread for each processor.
   int threads = 0;
-  /// Receives the work of the exact queries; null: no meter. Ignored with several threads. Must outlive the pipeline.
+  /// The meter that receives the work of the exact queries; null: no meter. The meter must outlive the pipeline. With
+  /// several threads, no meter is used.
   WorkMeter* meter = nullptr;
 };
 
-/// Two objects of a world. In queries, the object with the lower index is A, the other is B.
+/// Two objects of a world. In queries, the object with the lower index is A, and the other object is B.
 struct ObjectPair {
   ObjectId object_A;
   ObjectId object_B;
@@ -58,10 +59,10 @@ struct StageReport {
   }
 };
 
-/// Work of one frame. Stages see only pairs with an object that is new or has moved, and pairs that have just been
-/// enabled. So objects at rest cost nothing. But if the distance given to the step has changed, stages see all pairs of
-/// neighbors. Neighbors are objects whose fattened boxes overlap. A fattened box is an axis-aligned bounding box
-/// enlarged by some room to move.
+/// Work of one frame. Neighbors are objects whose fattened boxes overlap. A fattened box is an axis-aligned bounding
+/// box, enlarged to leave the object some room to move. Stages process only pairs that have just been enabled, and
+/// pairs with an object that is new or has moved. So objects at rest cost nothing. But if the distance given to the
+/// step has changed, stages process all pairs of neighbors.
 struct FrameReport {
   std::int64_t objects = 0;    ///< objects in the world
   std::int64_t neighbors = 0;  ///< pairs of neighbors, including pairs at rest
@@ -69,10 +70,10 @@ struct FrameReport {
   StageReport queue;
   /// In: objects that were added or moved. Out: enabled pairs of neighbors with at least one of these objects.
   StageReport neighbor_finding;
-  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs that met in
-  /// the last frame, without a test of planes, and tested pairs without a separating plane.
+  /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs for which
+  /// no separating plane was found. Pairs that met in the last frame are not tested for a plane, and count as Out.
   StageReport separating_planes;
-  /// In: the pairs that left the stage of separating planes. Out: the pairs among them that meet.
+  /// In: the pairs that left the stage of separating planes. Out: those of these pairs that meet.
   StageReport exact;
   /// In: pairs that have begun or ceased to meet. Out: all pairs that meet, including pairs at rest.
   StageReport result;
@@ -95,22 +96,22 @@ struct FrameReport {
 /// The pairs of objects that meet in one frame, with the detail that the `PairQuery` of the pipeline requires.
 struct FrameResult {
   std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: no frame yet
-  std::chrono::nanoseconds time_of_poses{0};  ///< time at which the poses were taken, by the pipeline's clock
+  std::chrono::nanoseconds time_of_poses{0};  ///< time on the pipeline's clock when the poses were taken
 
-  /// Age of the poses at the time `now` of the pipeline's clock.
+  /// Age of the poses at the time `now` on the pipeline's clock.
   std::chrono::nanoseconds age(std::chrono::nanoseconds now) const { return now - time_of_poses; }
 
   std::vector<ObjectPair> meeting;  ///< in ascending order
 
   /// Triangle pairs of `meeting[i]`, in ascending order of the triangle indices. `triangle_pairs` is empty unless the
-  /// `PairQuery` of the pipeline is kTrianglePairs; `close_pairs` is empty unless it is kClosePairs.
+  /// `PairQuery` of the pipeline is kTrianglePairs. `close_pairs` is empty unless the `PairQuery` is kClosePairs.
   std::span<const TrianglePair> triangle_pairs(std::size_t i) const { return part_of(all_triangle_pairs, i); }
   std::span<const ClosePair> close_pairs(std::size_t i) const { return part_of(all_close_pairs, i); }
 
   std::vector<TrianglePair> all_triangle_pairs;  ///< with PairQuery::kTrianglePairs
   std::vector<ClosePair> all_close_pairs;        ///< with PairQuery::kClosePairs
-  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of the list above
-  /// that the `PairQuery` fills. `ends` is empty with PairQuery::kVerdict.
+  /// The triangle pairs of `meeting[i]` are the entries `ends[i - 1]` (0 for i = 0) to `ends[i]` − 1 of
+  /// `all_triangle_pairs` or `all_close_pairs`, depending on the `PairQuery`. `ends` is empty with PairQuery::kVerdict.
   std::vector<std::size_t> ends;
 
   FrameReport report;
@@ -124,7 +125,7 @@ struct FrameResult {
   }
 };
 
-/// The pose X_AB of object B in the frame of object A, computed exactly as the pipeline does, so that results can be
+/// The pose X_AB of object B in the frame of object A. The pipeline uses the same computation, so results can be
 /// compared bit for bit.
 Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 

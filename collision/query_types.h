@@ -36,10 +36,10 @@ struct ClosePair {
 
 /// The distance of two meshes.
 struct MeshDistance {
-  /// Metres. 0 if the meshes intersect; the limit of the query if nothing is nearer.
+  /// The distance (metres): 0 if the meshes intersect; the limit of the query if no triangle pair is nearer.
   double distance;
   /// The nearest pair of triangles. Among equally near pairs, this is the first in ascending order of the triangle
-  /// indices. Empty if the meshes intersect (see `intersecting_pairs`), or if nothing is nearer than the limit.
+  /// indices. Empty if the meshes intersect (see `intersecting_pairs`), or if no pair is nearer than the limit.
   std::optional<ClosePair> nearest;
 };
 
@@ -50,14 +50,16 @@ struct QueryCounters {
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
-/// Receives the work of a query while the query runs, in the same thread. So a program can watch the progress of a
+/// Receives the work of a query while the query runs, in the same thread. So a program can observe the progress of a
 /// query, or make the query wait. The unit is about a nanosecond of an ordinary processor. The work depends on the
-/// trees, their poses and the memory of coherent queries, not on the speed of the machine. The work may differ a little
-/// between instruction sets, because conservative tests in single precision may keep different pairs.
+/// trees, on their poses and on what a coherent workspace remembers. It does not depend on the speed of the machine.
+/// The work may differ a little between instruction sets, because conservative tests in single precision may keep
+/// different pairs.
 class WorkMeter {
  public:
-  /// Adds the work just done or about to be done: on a pair of nodes, on a pair of leaves, or on the exact tests of up
-  /// to 16 triangle pairs of two leaves. May throw to end the query. A pipeline cannot be used after such an exception.
+  /// Adds the work just done or about to be done on a pair of nodes, on a pair of leaves, or on the exact tests of up
+  /// to 16 triangle pairs of two leaves. May throw an exception to end the query. After such an exception, a pipeline
+  /// cannot be used any more.
   virtual void spend(std::int64_t work) = 0;
 
  protected:
@@ -65,7 +67,7 @@ class WorkMeter {
 };
 
 /// Scratch memory and counters of queries. Keep one workspace per thread and reuse it. After the first few queries,
-/// nothing is allocated. Not thread-safe.
+/// queries allocate nothing. Not thread-safe.
 class QueryWorkspace {
  public:
   QueryWorkspace();
@@ -76,8 +78,8 @@ class QueryWorkspace {
   /// Work of the last query.
   const QueryCounters& counters() const;
 
-  /// Sets the meter of all later queries for pairs (`intersecting_pairs`, `pairs_within`, `traverse_near`) with this
-  /// workspace; null: no meter. The meter must outlive these queries.
+  /// Sets the meter of all later queries for pairs (`intersecting_pairs`, `pairs_within`, `traverse_near`) that use
+  /// this workspace. Null means no meter. The meter must outlive these queries.
   void set_meter(WorkMeter* meter);
 
  private:
@@ -85,10 +87,10 @@ class QueryWorkspace {
   std::unique_ptr<QueryMemory> memory_;
 };
 
-/// A workspace that exploits temporal coherence. It remembers the last query of one pair of trees. The next query is
-/// much cheaper if the trees have moved little. The answers are the same to the bit as with a `QueryWorkspace`. Use one
-/// workspace for each pair of trees. A workspace forgets when it is used for other trees, or for a tree that was
-/// refitted. Not thread-safe.
+/// A workspace that exploits temporal coherence. The workspace remembers the last query of one pair of trees. If the
+/// trees have moved little, the next query is much cheaper. The answers are the same to the bit as with a
+/// `QueryWorkspace`. Use one workspace for each pair of trees. A workspace forgets the last query if the next query has
+/// other trees, or a tree that was refitted. Not thread-safe.
 class CoherentWorkspace {
  public:
   CoherentWorkspace();
@@ -108,14 +110,14 @@ class CoherentWorkspace {
   std::unique_ptr<CoherentFront> front_;
 };
 
-/// A set of selected triangles of one tree. Further triangles may be half selected. Two triangles of two trees are a
-/// selected pair if at least one of them is selected, or if both are half selected. Immutable after construction, so
-/// safe to share between threads.
+/// A set of selected triangles of one tree. Other triangles may be half selected. A triangle pair of two trees is a
+/// selected pair if at least one of its triangles is selected, or if both are half selected. Immutable after
+/// construction, so threads may share it.
 class TriangleSelection {
  public:
   /// Calls both functions once for each triangle, with the index of the triangle in the mesh. Without
-  /// `is_half_selected`, no triangle is half selected. The selection is valid for `tree` and its copies, also after a
-  /// refit. Throws std::invalid_argument for an empty function `is_selected`. Cost O(n).
+  /// `is_half_selected`, no triangle is half selected. The selection is valid for `tree` and for copies of `tree`, also
+  /// after a refit. Throws std::invalid_argument for an empty function `is_selected`. Cost O(n).
   TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected,
                     const std::function<bool(std::int32_t)>& is_half_selected = {});
 
@@ -134,7 +136,7 @@ class TriangleSelection {
   /// Whether `tree` has as many nodes and leaves as the tree of the selection.
   bool is_of(const DopTree& tree) const;
 
-  /// A number from 1 on, unique in this process. A copy has the number of the original.
+  /// A number (≥ 1) that identifies the selection, unique in this process. A copy has the number of the original.
   std::uint64_t id() const { return id_; }
 
  private:
@@ -144,8 +146,8 @@ class TriangleSelection {
   std::uint64_t id_;
 };
 
-/// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so every pair
-/// is then a selected pair. Therefore a query is restricted only if both selections are given.
+/// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so that every
+/// pair is a selected pair. Therefore a query is restricted only if both selections are given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

@@ -1,9 +1,9 @@
 #pragma once
 
 /// The objects of a scene, their poses, and the enabled pairs of objects: the front end of the collision pipeline
-/// (paper §2, §2.3). Any number of threads add, remove and move objects while one thread, the consumer, computes
-/// frames. At the beginning of each frame, the consumer takes the changes since the last frame. Coordinate frames: W
-/// world, O object.
+/// (paper §2, §2.3). Any number of threads add, remove and move objects. Meanwhile one thread, the consumer, computes
+/// frames. At the beginning of each frame, the consumer takes the changes since the last frame. Coordinate frames: W is
+/// the world, O is an object.
 
 #include <compare>
 #include <cstdint>
@@ -21,8 +21,8 @@ namespace glissade::collision {
 class ConvexHull;
 class TriangleSelection;
 
-/// Identifies one object permanently. Each object occupies one slot, i.e. a numbered place in the world. A later object
-/// in the same slot has another generation.
+/// The permanent identifier of an object. Each object occupies one slot, i.e. a numbered place in the world. A later
+/// object in the same slot has another generation.
 struct ObjectId {
   std::uint32_t index = 0;       ///< number of the slot
   std::uint32_t generation = 0;  ///< 0: no object
@@ -54,18 +54,18 @@ struct WorldObject {
 /// Changes since the last call of `World::take_changes`. Slot numbers are in ascending order.
 struct WorldChanges {
   std::vector<std::uint32_t> removed;  ///< slots whose former object was removed
-  std::vector<std::uint32_t> added;    ///< slots with a new object; also in `removed` if a former object was removed
+  std::vector<std::uint32_t> added;    ///< slots with a new object; also in `removed` if the former object was removed
   std::vector<std::uint32_t> moved;    ///< slots of earlier objects whose pose may have changed
   bool interest = false;               ///< `is_enabled` may have changed for pairs of earlier objects
 };
 
-/// Thread-safety: any thread may edit the world or move objects at any time; one thread is the consumer. A "take" is a
-/// call of `take_changes`. An id is stale if it is default-constructed or if its object was removed. Do not use ids of
-/// another world.
+/// Thread-safety: any thread may edit the world or move objects at any time. One thread is the consumer. A "take" is a
+/// call of `take_changes`. An id is stale if it is default-constructed or if its object was removed. Do not use an id
+/// in another world than its own.
 class World {
  public:
-  /// A world with room for `capacity` objects, at about 0.9 kB each. Throws std::invalid_argument unless `capacity` is
-  /// 1 to 1,000,000.
+  /// A world for at most `capacity` objects. The world takes about 0.9 kB for each of them. Throws
+  /// std::invalid_argument unless `capacity` is 1 to 1,000,000.
   explicit World(int capacity = 4096);
   ~World();
   World(const World&) = delete;
@@ -73,43 +73,47 @@ class World {
 
   int capacity() const;
 
-  // Editors: any thread. Editors may block on each other, and on the consumer while it copies edits.
+  // Editors: any thread may call these functions. Editors may wait for each other, and for the consumer while it copies
+  // edits.
 
-  /// Adds an object. Throws std::invalid_argument for a null tree, for a tree with other options than the trees of the
-  /// objects in this world, for a selection of another tree, for a group outside 0 to 63, and for a pose that `move`
-  /// would reject. Throws std::length_error if the world is full. The slot of a removed object is occupied while a
-  /// thread is still inside `move` for this object.
+  /// Adds an object. Throws std::length_error if the world is full. The slot of a removed object stays occupied while a
+  /// thread is inside `move` for this object. Throws std::invalid_argument for
+  /// - a null tree
+  /// - a tree with other options than the trees of the objects in this world
+  /// - a selection of another tree
+  /// - a group outside 0 to 63
+  /// - a pose that `move` would reject
   ObjectId add(const ObjectDescription& object);
 
   /// Removes an object and forgets its disabled pairs. Throws std::invalid_argument for a stale id. The consumer's next
-  /// take releases the tree. If no take has seen the object, `remove` releases the tree.
+  /// take releases the tree. But if the consumer has never taken the object, `remove` releases the tree.
   void remove(ObjectId id);
 
   /// The collision interest matrix. The pipeline compares enabled pairs of objects only. A pair is enabled if its two
   /// groups are enabled for each other and the pair itself is not disabled. Initially, all groups and pairs are
-  /// enabled. All four functions are symmetric; `group_a` may equal `group_b`. `enable_pair` undoes `disable_pair`, but
-  /// does not override groups. All four functions throw std::invalid_argument for a group outside 0 to 63 and for a
-  /// stale id. Use groups for objects that must never be compared, because the consumer may take changes between `add`
-  /// and `disable_pair`.
+  /// enabled. All four functions are symmetric, and `group_a` may equal `group_b`. `enable_pair` undoes `disable_pair`,
+  /// but does not override groups. All four functions throw std::invalid_argument for a group outside 0 to 63 or a
+  /// stale id. The consumer may take changes between `add` and `disable_pair`. So use groups for objects that must
+  /// never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);
   void enable_pair(ObjectId a, ObjectId b);
   void disable_pair(ObjectId a, ObjectId b);
 
-  // Movers: any thread, one at a time for each object. Wait-free; they allocate nothing.
+  // Movers: any thread, but only one at a time for each object. These functions are wait-free and allocate nothing.
 
   /// Sets the pose of the object in the world. `geometry::rigid_pose` corrects the pose to a rotation and translation.
   /// The consumer's next take sees this pose or a newer pose. Returns false and does nothing for a stale id, for a pose
   /// that `rigid_pose` rejects, and while another thread moves the same object. If another thread removes the object
-  /// meanwhile, the result may be true although no take sees the pose.
+  /// during the call, the result may be true although no take sees the pose.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
-  // The consumer: one thread.
+  // The consumer: only one thread may call these functions.
 
-  /// Updates `objects` to all edits and poses so far, and returns the changes. Blocks for at most one edit of an
-  /// editor, and never on movers. Reads a pose again if a mover has replaced it during reading. Cost O(changes +
-  /// capacity / 64), plus a copy of the interest matrix if the matrix has changed. Destroys the trees of removed
-  /// objects if no other owner holds them. The next call overwrites the result.
+  /// Updates `objects` to all edits and poses so far, and returns the changes. Waits for at most one edit of an editor,
+  /// and never for movers. If a mover replaces a pose while the consumer reads it, the consumer reads the pose again.
+  /// Cost O(changes + capacity / 64), plus a copy of the interest matrix if the matrix has changed. Destroys the trees
+  /// of removed objects if no other owner holds them. The next call overwrites the result.
   const WorldChanges& take_changes();
 
   /// The objects by slot, as of the last take; `capacity` entries.
