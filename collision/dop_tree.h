@@ -69,7 +69,7 @@ class DopTree {
   /// Builds the hierarchy by a binned surface-area heuristic, with several threads if the mesh is large. The result
   /// does not depend on the number of threads. Degenerate triangles (zero area) take part in no query.
   ///
-  /// Throws std::invalid_argument for
+  /// Throws std::invalid_argument for:
   /// - a null mesh
   /// - a mesh without a triangle of positive area
   /// - more than 5 million triangles

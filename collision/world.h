@@ -77,7 +77,7 @@ class World {
   // edits.
 
   /// Adds an object. Throws std::length_error if the world is full. The slot of a removed object stays occupied while a
-  /// thread is inside `move` for this object. Throws std::invalid_argument for
+  /// thread is inside `move` for this object. Throws std::invalid_argument for:
   /// - a null tree
   /// - a tree with other options than the trees of the objects in this world
   /// - a selection of another tree

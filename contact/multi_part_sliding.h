@@ -54,7 +54,7 @@ bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen
 class MultiPartSliding {
  public:
   /// The riders of `chains` are absent until `place_riders`. Bodies closer than the rounding of their coordinates count
-  /// as touching. Throws std::invalid_argument for
+  /// as touching. Throws std::invalid_argument for:
   /// - no part, or more than kMaxParts parts
   /// - a single part without obstacles and riders
   /// - null pointers

@@ -52,7 +52,7 @@ enum class OverlapRule : std::uint8_t {
   /// path is short and straight, and leads no deeper into any body. Other obstacles stop the part as usual. If the part
   /// overlaps several obstacles, it leaves the deepest overlap first. If there is no such path, or if the path is
   /// blocked for twenty calls, the part follows the hand as far as the overlap gets no deeper. Once apart, part and
-  /// obstacle are an ordinary pair. The constructor still throws for
+  /// obstacle are an ordinary pair. The constructor still throws for:
   /// - a scripted part (see `HeldPart::script`)
   /// - a closed part that no inset (see `inset_mesh`) frees
   /// - an open part that is free on no side within two margins

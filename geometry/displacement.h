@@ -1,7 +1,7 @@
 #pragma once
 
 /// Displacements of a rigid part about a reference point fixed in the part, and bounds on the motion of the part's
-/// points. Also rigid poses, and measures of how far a matrix is from a rotation.
+/// points. Also functions for rigid poses, and measures of how far a matrix is from a rotation.
 
 #include <cmath>
 #include <optional>
@@ -25,39 +25,42 @@ struct Displacement {
   Vector6d stacked() const { return (Vector6d() << v, w).finished(); }
 };
 
-/// The rotation by the angle |w| (radians) about w.
+/// The rotation by the angle |w| (radians) about the axis w.
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
 
-/// The pose of a part after a displacement from X_WV; `p_Vref` is the reference point in the part's frame. The rotation
-/// of the result stays orthonormal to rounding, however many displacements are chained.
+/// The pose of a part after a displacement from X_WV. `p_Vref` is the reference point in the part's frame. The rotation
+/// of the result stays orthonormal up to rounding, whatever the number of successive displacements.
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);
 
-/// The displacement that takes the part from X_WV to X_WG: (p_G − p_V, log(R_G R_Vᵀ)). Here p_V and p_G are the
+/// The displacement (p_G − p_V, log(R_G R_Vᵀ)) that takes the part from X_WV to X_WG. Here p_V and p_G are the
 /// positions of the reference point in the world before and after the displacement. `p_Vref` is the reference point in
 /// the part's frame.
 Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
                                   const Eigen::Vector3d& p_Vref);
 
-/// Upper bound (metres) of the distance |x(t) − x(0)| that any point x of a part moves in a displacement, for every t.
-/// The bound is |v| + 2 sin(|w|/2) ρ. Here ρ = `radius` is the largest distance of a point of the part from the
-/// reference point. An angle |w| beyond π counts as π.
+/// Upper bound (metres) of |x(t) − x(0)| for every point x of a part and every t during a displacement. The bound is
+/// |v| + 2 sin(|w|/2) ρ. Here ρ = `radius` is the largest distance of a point of the part from the reference point. An
+/// angle |w| beyond π counts as π.
 double motion_bound(const Displacement& d, double radius);
 
 /// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). f is 1 if the whole displacement
-/// d satisfies this inequality. f is not simply `longest` / motion_bound(d, radius), because `motion_bound` is not
+/// d satisfies this inequality. f differs from `longest` / motion_bound(d, radius), because `motion_bound` is not
 /// linear.
 double fraction_within(const Displacement& d, double radius, double longest);
 
-/// The rigid pose nearest to an almost rigid X = (R, p). Returns X itself if the `rotation_defect` of R is below 1e-12,
-/// as for every product of a few rotations. Replaces R by the nearest rotation if the defect is between 1e-12 and 1e-4.
-/// Returns std::nullopt for a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond
-/// ±1e9 m. So the rotation of a result has a defect below 1e-12, and error bounds derived for rotations hold. Cost:
-/// about ten nanoseconds.
+/// The rigid pose nearest to an almost rigid X = (R, p). - If the `rotation_defect` of R is below 1e-12, the result is
+/// X itself. Every product of a few rotations has such a defect.
+/// - If the defect is between 1e-12 and 1e-4, the nearest rotation replaces R.
+/// - For a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond ±1e9 m, the result
+///   is std::nullopt.
+///
+/// So the rotation of a result has a defect below 1e-12, and error bounds derived for rotations hold. Cost: about ten
+/// nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
 /// The defect δ: the sum of the absolute entries of RᵀR − 1, where 1 is the identity matrix. The defect is 0 for an
-/// exact rotation or reflection. It is an upper bound of every common norm of RᵀR − 1. It is not finite when R has an
-/// entry that is not finite.
+/// exact rotation or reflection. The defect is an upper bound of every common norm of RᵀR − 1. The defect is not finite
+/// if R has an entry that is not finite.
 inline double rotation_defect(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);
@@ -66,8 +69,8 @@ inline double rotation_defect(const Eigen::Matrix3d& R) {
          2.0 * (std::abs(x.dot(y)) + std::abs(y.dot(z)) + std::abs(z.dot(x)));
 }
 
-/// An upper bound of `rotation_defect` for matrices of small defect, faster to compute than the defect itself. The
-/// bound is 0 for an exact rotation, and more than 1 for a reflection.
+/// An upper bound of `rotation_defect` for matrices of small defect. The bound is faster to compute than the defect
+/// itself. The bound is 0 for an exact rotation, and more than 1 for a reflection.
 inline double rotation_defect_bound(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);
@@ -75,7 +78,7 @@ inline double rotation_defect_bound(const Eigen::Matrix3d& R) {
   return 3.0 * xy + 7.0 * (x.cross(y) - R.col(2)).lpNorm<1>();
 }
 
-/// Whether R, a matrix of small defect, approximates a rotation rather than a reflection.
+/// Whether a matrix R of small defect approximates a rotation, not a reflection.
 inline bool is_right_handed(const Eigen::Matrix3d& R) {
   return R.col(0).cross(R.col(1)).dot(R.col(2)) > 0.0;
 }

@@ -1,8 +1,8 @@
 #pragma once
 
-/// Edges and vertices of a mesh, the triangles that meet there, and features, i.e. the edges and vertices that can make
-/// contact constraints. Also a report of the size and defects of a mesh. The orientation of triangles is not used, so
-/// meshes straight from CAD are suitable.
+/// Edges and vertices of a mesh, the triangles that meet at them, and features. Features are the edges and vertices
+/// that can make contact constraints. Also a report of the size and defects of a mesh. The orientation of triangles is
+/// not used, so meshes exported from CAD are suitable.
 
 #include <array>
 #include <cstdint>
@@ -16,9 +16,9 @@
 namespace glissade::geometry {
 
 /// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner, i.e. one of the
-/// triangles that meet there. A contact search considers an edge or vertex only at its owner. So it finds every contact
-/// once, always with the same feature numbers. Degenerate triangles are ignored. Immutable after construction, so safe
-/// to share between threads.
+/// triangles that meet at it. A contact search considers an edge or vertex only at its owner. So the search finds every
+/// contact once, always with the same feature numbers. Degenerate triangles are ignored. Immutable after construction,
+/// so threads may share it.
 ///
 /// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). A
 /// feature stops another mesh if a contact at this feature keeps the two meshes apart. In every contact of two meshes,
@@ -28,7 +28,7 @@ class MeshTopology {
   struct Edge {
     std::array<std::int32_t, 2> vertices;
     std::int32_t owner;  ///< the triangle that owns the edge
-    bool flat;           ///< the edge joins exactly two triangles, side by side in one plane
+    bool flat;           ///< the edge joins exactly two triangles, which lie side by side in one plane
   };
 
   /// Cost O(n log n).
@@ -47,26 +47,29 @@ class MeshTopology {
   /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
   /// Whether a vertex can stop another mesh. All vertices can, except those inside a plane patch or inside a straight
-  /// rim. A vertex is inside a plane patch if all its edges are flat. The features on the boundary of the patch stop
-  /// other meshes instead. A rim is a run of edges that are not flat. It ends at vertices where it bends or meets other
-  /// rims. A vertex is inside a straight rim if exactly two of its edges are not flat, these two edges continue each
-  /// other without a bend, and the vertex lies within 0.1 µm of the chord between the ends of the rim. The edges and
-  /// end vertices of the rim stop other meshes instead.
+  /// rim. A vertex is inside a plane patch if all its edges are flat. In its place, the features on the boundary of the
+  /// patch stop other meshes. A rim is a chain of edges that are not flat. A rim ends at vertices where it bends or
+  /// meets other rims. A vertex is inside a straight rim if three conditions hold:
+  /// - Exactly two edges of the vertex are not flat.
+  /// - These two edges continue each other without a bend.
+  /// - The vertex lies within 0.1 µm of the chord between the ends of the rim.
+  ///
+  /// In place of such a vertex, the edges and end vertices of the rim stop other meshes.
   bool can_stop(std::int32_t vertex) const { return can_stop_[static_cast<std::size_t>(vertex)] != 0; }
-  /// Whether a triangle owns any feature. A triangle without a feature stops other meshes with its face only. A face
+  /// Whether a triangle owns any feature. A triangle without a feature stops other meshes only with its face. A face
   /// stops only vertices.
   bool owns_stopping_feature(std::int32_t triangle) const {
     return owned_features_[static_cast<std::size_t>(triangle)] != 0;
   }
-  /// Whether two triangles of two meshes can stop each other with features that they own: at least one triangle owns a
-  /// vertex that can stop another mesh, or both triangles own edges that are not flat. A vertex stops any triangle, but
-  /// an edge stops only edges and vertices.
+  /// Whether two triangles of two meshes can stop each other with features that they own. This is so if at least one
+  /// triangle owns a vertex that can stop another mesh, or if both triangles own edges that are not flat. A vertex
+  /// stops any triangle, but an edge stops only edges and vertices.
   bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
     const int mine = owned_features_[static_cast<std::size_t>(triangle)];
     const int others = other.owned_features_[static_cast<std::size_t>(triangle_of_other)];
     return (mine & kCorners) != 0 || (others & kCorners) != 0 || (mine != 0 && others != 0);
   }
-  /// Whether corner i or edge i of a triangle is a feature that the triangle owns.
+  /// Whether corner i (or edge i) of a triangle is a feature that the triangle owns.
   bool owns_corner(std::int32_t triangle, int i) const { return owns(triangle, i); }
   bool owns_edge(std::int32_t triangle, int i) const { return owns(triangle, 3 + i); }
 
@@ -102,14 +105,14 @@ class MeshTopology {
 };
 
 /// Size and defects of a mesh, for the user's information. Meshes with these defects are valid input for this library.
-/// Intended for welded meshes: edges and components are found by shared vertex indices, not by positions. Degenerate
-/// triangles appear in `triangles` and `degenerate` only.
+/// The counts are meaningful for welded meshes, because edges and components are found by shared vertex indices, not by
+/// positions. Degenerate triangles count only in `triangles` and `degenerate`.
 struct MeshReport {
   std::int64_t vertices = 0;            ///< including vertices that no triangle uses
   std::int64_t triangles = 0;           ///< including degenerate triangles
   std::int64_t degenerate = 0;          ///< triangles without area
   std::int64_t duplicates = 0;          ///< triangles with the same three vertices as an earlier triangle
-  std::int64_t open_edges = 0;          ///< boundary edges: edges of only one triangle
+  std::int64_t open_edges = 0;          ///< boundary edges, i.e. edges of only one triangle
   std::int64_t nonmanifold_edges = 0;   ///< edges of more than two triangles
   std::int64_t inconsistent_edges = 0;  ///< edges that exactly two triangles share and traverse in the same direction
   std::int64_t components = 0;          ///< sets of triangles connected through shared vertices

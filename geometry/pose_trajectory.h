@@ -24,18 +24,18 @@ struct FrameVelocity {
   Eigen::Vector3d w_WB = Eigen::Vector3d::Zero();  ///< angular velocity of B, in world axes; rad/s
 };
 
-/// A pose for every time. Between two rows, the translation is linear and the rotation is a slerp along the shorter
-/// arc. Before the first row and after the last row, the pose is constant. Immutable after construction, so safe to
-/// share between threads.
+/// A trajectory gives a pose for every time. Between two rows, the translation is linear, and the rotation is a slerp
+/// along the shorter arc. Before the first row and after the last row, the pose is constant. Immutable after
+/// construction, so threads may share it.
 class PoseTrajectory {
  public:
-  /// Throws std::invalid_argument when there is no row. Also throws, naming the row (counted from 0), when the time of
-  /// a row is not greater than the time of the row before, when a pose is not finite, or when its matrix R is not a
-  /// rotation. R counts as a rotation if it is no reflection and every entry of RᵀR − 1 (1: the identity matrix) is at
-  /// most 1e-3 in absolute value.
+  /// Throws std::invalid_argument if there is no row. Also throws, naming the row (counted from 0), if the time of a
+  /// row is not greater than the time of the row before, if a pose is not finite, or if the matrix R of a pose is not a
+  /// rotation. R counts as a rotation if it is not a reflection and no entry of RᵀR − 1 exceeds 1e-3 in absolute value
+  /// (1 is the identity matrix).
   explicit PoseTrajectory(std::vector<TimedPose> rows);
 
-  /// The rows, as they were given or scaled in time. Valid as long as the trajectory.
+  /// The rows, as given to the constructor or as scaled in time. Valid as long as the trajectory.
   std::span<const TimedPose> rows() const noexcept { return rows_; }
   std::chrono::nanoseconds first_time() const noexcept { return rows_.front().time; }
   std::chrono::nanoseconds last_time() const noexcept { return rows_.back().time; }
@@ -45,22 +45,22 @@ class PoseTrajectory {
   Eigen::Isometry3d pose_at(std::chrono::nanoseconds time) const noexcept;
 
   /// The exact time derivative of `pose_at`. Between two rows, the velocity is constant. At a row, the result is the
-  /// velocity of the piece that starts there. The velocity is zero before the first row, and from the last row on.
+  /// velocity of the piece that starts there. The velocity is zero before the first row, at the last row and after it.
   /// Real-time safe; O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
   /// The same path with the same first time. All later times are scaled so that the path takes `duration`. Throws
-  /// std::invalid_argument when `duration` is not positive, or so short that two rows would have the same time in
+  /// std::invalid_argument if `duration` is not positive, or is so short that two rows would have the same time in
   /// nanoseconds.
   PoseTrajectory time_scaled(std::chrono::nanoseconds duration) const;
 
  private:
-  /// Index of the row that starts the piece containing `time`, which must be at least the first time and below the
-  /// last.
+  /// Index of the row at the start of the piece that contains `time`. `time` must be at least the first time and below
+  /// the last time.
   std::size_t piece_at(std::chrono::nanoseconds time) const noexcept;
 
   std::vector<TimedPose> rows_;
-  std::vector<Eigen::Quaterniond> q_WB_;  // their rotations
+  std::vector<Eigen::Quaterniond> q_WB_;  // rotations of the rows
 };
 
 }  // namespace glissade::geometry

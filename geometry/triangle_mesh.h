@@ -1,7 +1,7 @@
 #pragma once
 
 /// A triangle soup with shared vertices, and simple operations on meshes, such as merge, transform and weld. The
-/// operations are pure functions that any thread may call. The cost is linear in the size of the input.
+/// operations are pure functions that any thread may call. Their cost is linear in the size of the input.
 
 #include <array>
 #include <cstdint>
@@ -18,9 +18,9 @@ using Triangle = std::array<std::int32_t, 3>;
 
 /// Triangles over an indexed set of vertices, in metres, in the frame of their object.
 ///
-/// The surface may be open, non-manifold, self-intersecting and inconsistently oriented, and triangles may be
-/// degenerate. Two triangles are adjacent only where they share vertex indices, so meshes should be welded.
-/// `import_mesh` welds meshes.
+/// The surface may be open, non-manifold, self-intersecting and inconsistently oriented. Triangles may be degenerate.
+/// Two triangles are adjacent only where they share vertex indices, so meshes should be welded. `import_mesh` welds
+/// meshes.
 struct TriangleMesh {
   std::vector<Eigen::Vector3d> vertices;
   std::vector<Triangle> triangles;
@@ -41,28 +41,28 @@ struct TriangleMesh {
 /// vertices.
 TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
-/// The mesh in coordinates of frame A; `mesh_B` is in coordinates of frame B.
+/// The mesh `mesh_B`, whose coordinates are in frame B, in coordinates of frame A.
 TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_AB);
 
-/// The mesh with the orientation of each triangle reversed with probability one half. Equal seeds give equal meshes.
-/// Serves tests that nothing in this library depends on the orientation of triangles.
+/// The mesh after the orientation of each triangle has been reversed with probability one half. Equal seeds give equal
+/// meshes. With this function, tests check that nothing in this library depends on the orientation of triangles.
 TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
-/// The mesh with vertices at identical positions merged; 0 and -0 count as identical. Keeps all triangles, including
-/// degenerate triangles, in their order. Drops vertices that no triangle uses, and numbers the other vertices by first
+/// Merges vertices at identical positions; 0 and -0 count as identical. Keeps all triangles, including degenerate
+/// triangles, in their order. Drops vertices that no triangle uses. Numbers the other vertices in the order of first
 /// use.
 TriangleMesh weld(const TriangleMesh& mesh);
 
-/// The box round all vertices, along the axes of the mesh's frame; empty without vertices.
+/// The axis-aligned bounding box of all vertices in the mesh's frame; empty without vertices.
 Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh);
 
 /// Indices of the triangles with all three corners in the box, in ascending order.
 std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
-/// The mesh with the given triangles (indices in ascending order) made degenerate. Degenerate triangles take part in no
-/// query. All other triangles keep their indices. Use this function if a part in its final position overlaps an
-/// obstacle by design, such as a car radio that presses on the spring tongues of its slot. Remove from the obstacle's
-/// mesh the triangles that bend out of the way in reality.
+/// Makes the given triangles (indices in ascending order) degenerate. Degenerate triangles take part in no query. All
+/// other triangles keep their indices. Use this function if a part in its final position overlaps an obstacle by
+/// design. For example, a car radio presses on the spring tongues of its slot. Remove the triangles of the obstacle's
+/// mesh that bend out of the way in reality.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

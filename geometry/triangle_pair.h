@@ -1,7 +1,7 @@
 #pragma once
 
-/// Pairs of triangles: an exact intersection test, the distance and closest points (up to rounding) of one or eight
-/// pairs, and the features on which closest points lie.
+/// Functions of pairs of triangles: an exact intersection test, the distance and closest points (up to rounding) of one
+/// or eight pairs, and the features on which closest points lie.
 
 #include <algorithm>
 #include <array>
@@ -19,9 +19,10 @@ using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 /// Whether a triangle has no area because its three points lie on one line. Exact.
 bool is_degenerate(const TrianglePoints& triangle);
 
-/// Whether two closed triangles share a point. Exact for the given coordinates; touching counts. Coplanar pairs, shared
-/// edges and shared vertices need no special treatment. `a` must not be degenerate. `b` may be degenerate, for example
-/// by rounding in a transformation. A degenerate `b` counts as the segment or point to which it has collapsed.
+/// Whether two closed triangles share a point. Exact for the given coordinates. Triangles that touch share a point.
+/// Coplanar pairs, shared edges and shared vertices need no special treatment. `a` must not be degenerate. `b` may be
+/// degenerate, for example by rounding in a transformation. A degenerate `b` counts as the segment or point that its
+/// corners span.
 bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
 
 /// The distance of two triangles in metres, and the two points at this distance.
@@ -31,10 +32,10 @@ struct TriangleDistance {
   Eigen::Vector3d p_b;  ///< on the second triangle
 };
 
-/// Closest points of two closed triangles. The distance is exactly 0 if and only if `triangles_intersect(a, b)`. Both
-/// points are then the same point of the intersection, up to rounding. Otherwise the distance is accurate to a few
-/// units in the last place of the largest coordinate. `a` must not be degenerate; `b` may be, as in
-/// `triangles_intersect`.
+/// Closest points of two closed triangles. The distance is exactly 0 if and only if `triangles_intersect(a, b)`. If the
+/// distance is 0, both points are the same point of the intersection, up to rounding. Otherwise the distance is
+/// accurate to a few units in the last place of the largest coordinate. `a` must not be degenerate. `b` may be
+/// degenerate, as in `triangles_intersect`.
 TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints& b);
 
 inline constexpr std::size_t kPairsToMeasure = 8;
@@ -60,7 +61,7 @@ struct alignas(64) TrianglesToMeasure {
   TrianglesOfPairs b;
 };
 
-/// The closest points of each pair of triangles: points of two edges, or a corner and a point of a face.
+/// The closest points of each pair of triangles. The points lie on two edges, or are a corner and a point of a face.
 struct alignas(64) ClosestPoints {
   std::array<double, kPairsToMeasure> squared_distance;
   std::array<double, kPairsToMeasure> is_apart;  ///< 1 where the triangles certainly do not intersect, else 0
@@ -68,8 +69,8 @@ struct alignas(64) ClosestPoints {
   VectorsOfPairs p_b;
 };
 
-/// Finds, for each pair that does not intersect, the same points as `triangle_distance`, bit for bit, and the square of
-/// the distance. Other pairs have `is_apart` 0 and meaningless points. Uses vector code. Thread-safe.
+/// For each pair that does not intersect, finds the square of the distance, and the same points as `triangle_distance`,
+/// bit for bit. For other pairs, `is_apart` is 0, and the points are meaningless. Uses vector code. Thread-safe.
 void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& closest);
 
 /// The kind of feature on which a point of a triangle lies.
@@ -78,7 +79,7 @@ enum class Region : std::uint8_t { kFace, kEdge, kVertex };
 struct ClosestOnTriangle {
   Eigen::Vector3d point;
   Region region;
-  int index;  ///< number of the edge (joins corners index and index + 1) or of the vertex
+  int index;  ///< number of the vertex, or of the edge from corner `index` to the next corner
 };
 
 /// The point of a triangle closest to x, found by the triangle's Voronoi regions.
@@ -105,8 +106,8 @@ inline ClosestOnTriangle closest_on_triangle(const Eigen::Vector3d& x, const Tri
   return {t[static_cast<std::size_t>(nearest)], Region::kVertex, nearest};
 }
 
-/// Closest points `p` and `q` of the lines through two segments. Positions along a segment are 0 at its first end and 1
-/// at its second end.
+/// Closest points `p` and `q` of the lines through two segments. The position along a segment is 0 at the first end and
+/// 1 at the second end.
 struct SegmentPoints {
   Eigen::Vector3d p;
   Eigen::Vector3d q;

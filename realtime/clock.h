@@ -1,14 +1,14 @@
 #pragma once
 
-/// Clocks for loops: the clock of the machine, and a simulated clock. A loop on the simulated clock is deterministic
+/// Two clocks for loops: the clock of the machine and a simulated clock. A loop on the simulated clock is deterministic
 /// and runs as fast as it can.
 
 #include <chrono>
 
 namespace glissade::realtime {
 
-/// A source of time that can also wait. Times are nanoseconds since an arbitrary epoch, which is fixed for the clock's
-/// life.
+/// A source of time that can also wait. Times are nanoseconds since an epoch. The epoch is arbitrary, but fixed for the
+/// clock's life.
 class Clock {
  public:
   virtual ~Clock() = default;
@@ -18,12 +18,13 @@ class Clock {
   /// Returns as soon as now() ≥ `deadline`. May block.
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
 
-  /// As `sleep_until`, for a short time before a deadline. If a clock can spin, it reads the time in a busy loop
-  /// instead of giving up the processor, so that no wake-up comes late.
+  /// Like `sleep_until`, for a short time before a deadline. A clock that can spin reads the time in a busy loop and
+  /// keeps the processor, so no wake-up can be late.
   virtual void spin_until(std::chrono::nanoseconds deadline) noexcept { sleep_until(deadline); }
 };
 
-/// CLOCK_MONOTONIC. The epoch is the same for all processes of a machine. Any number of threads may use one object.
+/// The clock of the machine, CLOCK_MONOTONIC. The epoch is the same for all processes of a machine. Any number of
+/// threads may use one object.
 class SteadyClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override;
@@ -31,7 +32,7 @@ class SteadyClock final : public Clock {
   void spin_until(std::chrono::nanoseconds deadline) noexcept override;
 };
 
-/// A clock that starts at 0 and moves only by `sleep_until` and `advance`. Not thread-safe.
+/// A simulated clock. It starts at 0, and only `sleep_until` and `advance` change its time. Not thread-safe.
 class SimulatedClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override { return now_; }

@@ -10,14 +10,14 @@
 
 namespace glissade::realtime {
 
-/// A log-linear histogram of durations in nanoseconds. Below 128 ns each duration has its own bucket. From there to
+/// A log-linear histogram of durations in nanoseconds. Each duration below 128 ns has its own bucket. From 128 ns to
 /// 2^40 ns (18 minutes), each power of two has 64 buckets.
 ///
-/// Not thread-safe. Read a histogram in the thread that records, or after that thread has been joined.
+/// Not thread-safe. Only the recording thread may read a histogram until this thread has been joined.
 class LatencyHistogram {
  public:
-  /// A reported quantile is never below the exact quantile. A reported quantile below 18 minutes exceeds the exact
-  /// quantile by at most the fraction kRelativeError.
+  /// A reported quantile is never below the exact quantile. If it is below 18 minutes, it exceeds the exact quantile by
+  /// at most the fraction kRelativeError.
   static constexpr double kRelativeError = 1.0 / 64.0;
 
   /// Adds one duration. A negative duration counts as 0. All durations of 2^40 ns or more share the last bucket, so
@@ -30,15 +30,15 @@ class LatencyHistogram {
   std::uint64_t count() const noexcept { return count_; }
 
   /// Number of recorded durations of at most `duration`. Durations up to (1 + kRelativeError) × `duration` may also
-  /// count. The difference of two results is the height of a bar in a drawn histogram.
+  /// count. To draw a histogram, use the difference of two results as the height of a bar.
   std::uint64_t count_up_to(std::chrono::nanoseconds duration) const noexcept;
 
-  /// The largest recorded duration, exact; 0 when nothing was recorded.
+  /// The exact largest recorded duration; 0 if nothing was recorded.
   std::chrono::nanoseconds max() const noexcept { return std::chrono::nanoseconds(max_); }
 
   /// The `p`-quantile: the smallest recorded duration d such that at least the fraction `p` of all durations is at most
-  /// d. `p` is clamped to 0…1. The result is rounded up as stated at `kRelativeError`, and is 0 when nothing was
-  /// recorded. quantile(0.5) is the median, quantile(1) is max().
+  /// d. `p` is clamped to 0…1. The result is rounded up (see `kRelativeError`), and is 0 if nothing was recorded.
+  /// quantile(0.5) is the median, and quantile(1) is max().
   std::chrono::nanoseconds quantile(double p) const noexcept;
 
  private:

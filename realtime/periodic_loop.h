@@ -2,16 +2,16 @@
 
 /// A loop that calls a function at a fixed rate and records its punctuality. A tick is one call of this function.
 ///
-/// The scheduling rule: the deadlines form a fixed grid, start + k · period. A tick counts as late when it starts at or
-/// after the deadline that follows its own deadline. After each tick, the loop continues with the first later deadline
-/// whose successor has not passed yet. The loop skips and counts the deadlines in between. So ticks never run in
-/// bursts, and the loop never drifts. After an overrun, the next tick starts at once.
+/// The scheduling rule is as follows. The deadlines form a fixed grid, start + k · period. A tick counts as late when
+/// it starts at or after the deadline that follows its own deadline. After each tick, the loop continues with the first
+/// later deadline whose next deadline has not passed yet. The loop skips the deadlines before it and counts them. So
+/// ticks never run in bursts, and the loop never drifts. After an overrun, the next tick starts at once.
 ///
-/// Between ticks, the loop sleeps until the absolute time of the next deadline. The sleep ends late by the time that
-/// the system needs to wake the thread. With spinning, the loop sleeps until a set time before the deadline, and then
+/// Between ticks, the loop sleeps until the absolute time of the next deadline. The sleep ends late, because the system
+/// needs some time to wake the thread. With spinning, the loop sleeps until a given time before the deadline. Then it
 /// reads the clock until the deadline. Spinning is off by default, because it takes a part of a core from other
-/// threads. Spinning does not shorten the longest delays, in which the thread does not get the processor.
-/// docs/real_time.md has measurements.
+/// threads. Spinning does not shorten the longest delays, in which the thread does not get the processor. For
+/// measurements, see docs/real_time.md.
 
 #include <chrono>
 #include <cstdint>
@@ -25,23 +25,23 @@ namespace glissade::realtime {
 struct PeriodicStatistics {
   std::uint64_t ticks = 0;
   std::uint64_t late_ticks = 0;         ///< ticks that started a period or more after their deadline
-  std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, after a late wake-up or a long tick
+  std::uint64_t skipped_deadlines = 0;  ///< deadlines without a tick, because of a late wake-up or a long tick
   LatencyHistogram lateness;            ///< start of the tick minus its deadline
   LatencyHistogram duration;            ///< end of the tick minus its start
 };
 
 /// The argument of a tick function.
 struct PeriodicTick {
-  std::uint64_t index;                ///< 0, 1, 2, … within this run; counts ticks, not deadlines
+  std::uint64_t index;                ///< number of the tick in this run, from 0; skipped deadlines do not count
   std::chrono::nanoseconds deadline;  ///< scheduled start of this tick
   std::chrono::nanoseconds start;     ///< actual start of this tick
 };
 
-/// Computes deadlines by the scheduling rule at the head of this file, without a clock. `run_periodic` is the complete
-/// loop.
+/// Computes deadlines by the scheduling rule (see the top of this file), without a clock. `run_periodic` is the
+/// complete loop.
 class PeriodicSchedule {
  public:
-  /// The first deadline is `start`. Throws std::invalid_argument when `period` is not positive.
+  /// The first deadline is `start`. Throws std::invalid_argument if `period` is not positive.
   PeriodicSchedule(std::chrono::nanoseconds start, std::chrono::nanoseconds period);
 
   std::chrono::nanoseconds deadline() const noexcept { return deadline_; }
@@ -61,9 +61,9 @@ class PeriodicSchedule {
 void validate_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period);
 
 /// Calls `tick(const PeriodicTick&) -> bool` every `period` in the calling thread until the tick returns false. The
-/// first call is one period from now. Adds to `statistics` in place. Allocates and locks nothing. Between ticks, the
-/// loop sleeps on `clock`, and then spins for the time `spin` before the deadline. Throws std::invalid_argument when
-/// `period` is not positive, and as `validate_spin` does.
+/// first call is one period from now. Updates `statistics`. Allocates and locks nothing. Between ticks, the loop sleeps
+/// on `clock` until the time `spin` before the deadline, and then spins until the deadline. Throws
+/// std::invalid_argument if `period` is not positive or `validate_spin` rejects `spin`.
 template <typename Tick>
 void run_periodic(Clock& clock, std::chrono::nanoseconds period, PeriodicStatistics& statistics, Tick&& tick,
                   std::chrono::nanoseconds spin = std::chrono::nanoseconds(0)) {

@@ -16,12 +16,13 @@
 namespace glissade::realtime {
 
 /// Thread-safety: one producer thread and one consumer thread. Any thread may call `dropped`. Progress: `push` and
-/// `pop` are wait-free and bounded. Allocates nothing after construction, unless T's assignment allocates.
+/// `pop` are wait-free, with a bounded number of steps. Allocates nothing after construction, unless T's assignment
+/// allocates.
 template <typename T>
 class SpscRing {
  public:
-  /// A ring with room for `capacity` values, rounded up to a power of two. Throws std::invalid_argument when `capacity`
-  /// is 0 or beyond 2^32.
+  /// A ring with room for `capacity` values, rounded up to a power of two. Throws std::invalid_argument if `capacity`
+  /// is 0 or greater than 2^32.
   explicit SpscRing(std::size_t capacity) : slots_(checked_capacity(capacity)), mask_(slots_.size() - 1) {}
 
   SpscRing(const SpscRing&) = delete;
@@ -29,8 +30,7 @@ class SpscRing {
 
   std::size_t capacity() const noexcept { return slots_.size(); }
 
-  /// Producer: appends `value` and returns true. When the ring is full, drops the value, counts the drop, and returns
-  /// false.
+  /// Producer: appends `value` and returns true. If the ring is full, drops `value`, counts the drop and returns false.
   bool push(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     const std::uint64_t end = end_.load(std::memory_order_relaxed);
     if (end - begin_seen_by_producer_ == slots_.size()) {
@@ -45,8 +45,8 @@ class SpscRing {
     return true;
   }
 
-  /// Consumer: moves the oldest value into `value` and returns true. When the ring is empty, leaves `value` unchanged
-  /// and returns false.
+  /// Consumer: moves the oldest value into `value` and returns true. If the ring is empty, leaves `value` unchanged and
+  /// returns false.
   bool pop(T& value) noexcept(std::is_nothrow_move_assignable_v<T>) {
     const std::uint64_t begin = begin_.load(std::memory_order_relaxed);
     if (begin == end_seen_by_consumer_) {
@@ -58,8 +58,8 @@ class SpscRing {
     return true;
   }
 
-  /// Consumer: calls `take` with each value in the ring, the oldest first. Values pushed during the call wait for the
-  /// next call, so the call ends even if the producer never stops.
+  /// Consumer: calls `take` with each value in the ring, beginning with the oldest. Values pushed during the call stay
+  /// for the next call, so the call ends even if the producer never stops.
   template <typename Take>
   void pop_waiting(Take&& take) {
     std::uint64_t waiting = end_.load(std::memory_order_acquire) - begin_.load(std::memory_order_relaxed);
@@ -71,7 +71,8 @@ class SpscRing {
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  /// Bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation units.
+  /// Bytes. The number is fixed, because std::hardware_destructive_interference_size may differ between translation
+  /// units.
   static constexpr std::size_t kCacheLineBytes = 64;
 
   static std::size_t checked_capacity(std::size_t capacity) {
@@ -85,7 +86,7 @@ class SpscRing {
   std::size_t mask_;
 
   // Positions only increase. Each side keeps a copy of the other side's position, and reads the other side's cache line
-  // only when the ring looks full or empty by this copy.
+  // only if the ring is full or empty according to this copy.
   alignas(kCacheLineBytes) std::atomic<std::uint64_t> end_{0};
   std::uint64_t begin_seen_by_producer_ = 0;
   std::atomic<std::uint64_t> dropped_{0};

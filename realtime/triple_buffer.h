@@ -1,7 +1,7 @@
 #pragma once
 
 /// A buffer that passes the newest value from one thread to another. Neither thread locks or waits. Use `TripleBuffer`
-/// for states and commands, where old values are worthless. Use `SpscRing` where every value matters.
+/// for states and commands, where only the newest value matters. Use `SpscRing` where every value matters.
 
 #include <array>
 #include <atomic>
@@ -11,11 +11,12 @@
 
 namespace glissade::realtime {
 
-/// A buffer of three slots. One slot belongs to the writer, one to the reader, and the middle slot to neither.
-/// `publish` exchanges the writer's slot for the middle slot. `update` exchanges the reader's slot for the middle slot.
+/// A buffer of three slots. One slot belongs to the writer, one slot belongs to the reader, and the middle slot belongs
+/// to neither. `publish` exchanges the writer's slot for the middle slot. `update` exchanges the reader's slot for the
+/// middle slot.
 ///
-/// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free and bounded, whatever
-/// the other thread does. Allocates nothing, unless T's assignment allocates.
+/// Thread-safety: one writer thread and one reader thread. Progress: every function is wait-free, with a bounded number
+/// of steps. Allocates nothing, unless T's assignment allocates.
 template <typename T>
 class TripleBuffer {
  public:
@@ -31,8 +32,8 @@ class TripleBuffer {
     publish();
   }
 
-  /// Writer: the slot to fill in place before `publish()`. The slot holds an arbitrary older value, so overwrite all of
-  /// it.
+  /// Writer: the slot to fill in place before `publish()`. The slot holds an arbitrary older value, so overwrite the
+  /// whole slot.
   T& write_slot() noexcept { return slots_[writer_].value; }
 
   /// Writer: makes the contents of `write_slot()` the newest value.
@@ -40,7 +41,7 @@ class TripleBuffer {
     writer_ = between_.exchange(static_cast<std::uint8_t>(writer_ | kFresh), std::memory_order_acq_rel) & kIndex;
   }
 
-  /// Reader: takes the newest value and returns true if a value was published since the last call; otherwise returns
+  /// Reader: if a value was published since the last call, takes the newest value and returns true. Otherwise returns
   /// false.
   bool update() noexcept {
     if ((between_.load(std::memory_order_relaxed) & kFresh) == 0) return false;
@@ -48,20 +49,22 @@ class TripleBuffer {
     return true;
   }
 
-  /// Reader: the value last taken by `update()`, or the initial value. It does not change until the next `update()`.
+  /// Reader: the value last taken by `update()`, or the initial value. The value does not change until the next
+  /// `update()`.
   const T& value() const noexcept { return slots_[reader_].value; }
 
-  /// Reader: `update()` and `value()` in one.
+  /// Reader: calls `update()` and returns `value()`.
   const T& latest() noexcept {
     update();
     return value();
   }
 
  private:
-  /// Bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation units.
+  /// Bytes. The number is fixed, because std::hardware_destructive_interference_size may differ between translation
+  /// units.
   static constexpr std::size_t kCacheLineBytes = 64;
   static constexpr std::uint8_t kIndex = 3;
-  static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` from a publish to the next update
+  static constexpr std::uint8_t kFresh = 4;  ///< set in `between_` by `publish`, cleared by the next `update`
 
   struct alignas(kCacheLineBytes) Slot {
     T value;
