@@ -1,12 +1,12 @@
 #pragma once
 
-/// The collision pipeline (paper §2). In each frame, it finds the pairs of objects of a world that meet. The cost of a
-/// frame grows with the number of near pairs that moved, not with the number of objects.
+/// The collision pipeline (paper §2). In each frame, the pipeline finds the pairs of objects of a world that meet. The
+/// cost of a frame grows with the number of near pairs that moved, not with the number of objects.
 ///
 ///   queue → interest matrix → neighbor finding → separating planes → DOP-trees
 ///
-/// Use a `CollisionPipeline` to compute frames in your own thread. A `CollisionThread` (paper §2.3) computes frame
-/// after frame in a separate thread. Other threads move objects and read results without ever waiting for the
+/// Use a `CollisionPipeline` to compute frames in your own thread. A `CollisionThread` (paper §2.3) computes frames
+/// continually in a separate thread. Other threads move objects and read results without ever waiting for the
 /// `CollisionThread`.
 
 #include <chrono>
@@ -28,7 +28,7 @@ namespace glissade::collision {
 class CollisionPipeline {
  public:
   /// The pipeline becomes the only consumer of `world`: only the pipeline may call `World::take_changes`. World and
-  /// clock must outlive the pipeline. The clock is used for measurements only. Throws std::invalid_argument if the
+  /// clock must outlive the pipeline. The clock serves measurements only. Throws std::invalid_argument if the
   /// `greatest_distance` of `options` is negative or not finite, or if the number of threads is negative.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
@@ -38,10 +38,10 @@ class CollisionPipeline {
   /// Computes a frame with the newest poses. Finds all enabled pairs of objects that meet. Two objects meet if their
   /// distance is at most `distance` (metres). With `distance` 0, objects meet if their surfaces touch or intersect. The
   /// answers are exact: they equal the answers of the queries of `dop_query.h` at the pose X_AB that `relative_pose`
-  /// computes. With PairQuery::kClosePairs, two objects that both have a selection of triangles (`ObjectDescription`)
-  /// meet only if a selected pair of triangles is within `distance`. The other values of `PairQuery` ignore selections.
-  /// The next call overwrites the result. Throws std::invalid_argument if `distance` is negative, not a number, or
-  /// greater than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
+  /// computes. If two objects both have a selection of triangles (see `ObjectDescription`), then with
+  /// PairQuery::kClosePairs they meet only if a selected pair of triangles is within `distance`. The other values of
+  /// `PairQuery` ignore selections. The next call overwrites the result. Throws std::invalid_argument if `distance` is
+  /// negative, not a number, or greater than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
 
   /// The result of the last `step`. Before the first `step`, its frame number is 0.
@@ -56,9 +56,9 @@ struct CollisionThreadOptions {
   PipelineOptions pipeline;
   /// The `distance` (metres) of `CollisionPipeline::step`. At most `pipeline.greatest_distance`.
   double distance = 0.0;
-  /// Time from the beginning of one frame (one `CollisionPipeline::step`) to the beginning of the next. If a frame
-  /// takes longer than the period, the next frame begins at once. No additional frames are computed to compensate for
-  /// the delay.
+  /// Time from the beginning of one frame (i.e. one call of `CollisionPipeline::step`) to the beginning of the next
+  /// frame. If a frame takes longer than the period, the next frame begins at once. Missed frames are not computed
+  /// later.
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
   /// Number of readers, at least 1. Each thread that reads results needs its own reader.
   int readers = 1;

@@ -155,7 +155,7 @@ struct HullMemory {
   /// The last simplex of GJK. Each point has a corner of A and a corner of B.
   std::array<std::array<std::int32_t, 2>, 4> simplex{};
   std::int8_t simplex_count = 0;
-  std::int8_t planes_to_leave = 0;  ///< number of new planes to keep as found, without an attempt to widen their gap
+  std::int8_t planes_to_leave = 0;  ///< number of further new planes whose gap the test does not try to widen
   bool has_plane = false;
   bool by_centers = false;  ///< the line between the centres gave the last answer, after a large movement
   bool met = false;         ///< the last answer was that the hulls may meet
@@ -168,9 +168,9 @@ struct HullMemory {
 /// is no larger than rounding errors, the answer is false. Such gaps are at most the `ConvexHull::outside` of both
 /// hulls plus 1e-13 of the sum of all coordinates involved (1e-11 of this sum for hulls like needles).
 ///
-/// Allocates nothing. The cost is about 20 ns while the plane or simplex in the `HullMemory` decides. Otherwise it is
-/// less than a microsecond after a small movement, and some microseconds after a large movement. The cost is always
-/// bounded. Different threads may query the same hulls, each with its own `HullMemory`.
+/// Allocates nothing. The cost is about 20 ns while the plane or simplex in the `HullMemory` decides. Otherwise the
+/// cost is less than a microsecond after a small movement, and some microseconds after a large movement. The cost is
+/// always bounded. Different threads may query the same hulls, each with its own `HullMemory`.
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
                  HullTest test = HullTest::kExact) noexcept;
 

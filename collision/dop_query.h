@@ -71,11 +71,11 @@ struct Penetration {
 /// Because of this query, the depth is a guaranteed upper bound of the shortest translation that separates the two
 /// surfaces. A shorter translation may exist. The search tries directions of the whole sphere, the normals of
 /// intersecting triangles, the axes of both frames and the diagonals between the axes. Then the search refines the best
-/// direction to a few thousandths of a radian. Along axes and diagonals, the search finds the nearest free place of any
-/// size, such as the middle of a hole. Along other directions, the search may miss small free places. For convex
-/// bodies, the depth is within a few per cent of the least depth. Meshes are surfaces without an inside. So a body
-/// inside a closed surface is apart from this surface unless body and surface touch. The shortest way out of a shell
-/// may lead inward. Only the translated pose is tested. On the path to this pose, B may meet A or other objects.
+/// direction to a few thousandths of a radian. Along axes and diagonals, the search finds the nearest free place,
+/// however small. An example is the middle of a hole. Along other directions, the search may miss small free places.
+/// For convex bodies, the depth is within a few per cent of the least depth. Meshes are surfaces without an inside. So
+/// a body inside a closed surface is apart from this surface unless body and surface touch. The shortest way out of a
+/// shell may lead inward. Only the translated pose is tested. On the path to this pose, B may meet A or other objects.
 ///
 /// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws in the same cases as the other
 /// queries.

@@ -45,7 +45,8 @@ struct ObjectPair {
   auto operator<=>(const ObjectPair&) const = default;
 };
 
-/// The number of items that entered a stage of the pipeline, the number that left it, and the duration of the stage.
+/// The number of items that entered a stage of the pipeline, the number of items that left the stage, and the duration
+/// of the stage.
 struct StageReport {
   std::int64_t in = 0;
   std::int64_t out = 0;
@@ -71,7 +72,7 @@ struct FrameReport {
   /// In: objects that were added or moved. Out: enabled pairs of neighbors with at least one of these objects.
   StageReport neighbor_finding;
   /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs for which
-  /// no separating plane was found. Pairs that met in the last frame are not tested for a plane, and count as Out.
+  /// no separating plane was found. Pairs that met in the last frame count as Out without a test.
   StageReport separating_planes;
   /// In: the pairs that left the stage of separating planes. Out: those of these pairs that meet.
   StageReport exact;

@@ -50,11 +50,11 @@ struct QueryCounters {
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
-/// Receives the work of a query while the query runs, in the same thread. So a program can observe the progress of a
-/// query, or make the query wait. The unit is about a nanosecond of an ordinary processor. The work depends on the
-/// trees, on their poses and on what a coherent workspace remembers. It does not depend on the speed of the machine.
-/// The work may differ a little between instruction sets, because conservative tests in single precision may keep
-/// different pairs.
+/// Receives the work of a query while the query runs. The thread of the query calls the meter. So a program can observe
+/// the progress of a query, or make the query wait. The unit is about a nanosecond of an ordinary processor. The work
+/// depends on the trees, on their poses and on what a coherent workspace remembers. It does not depend on the speed of
+/// the machine. The work may differ a little between instruction sets, because conservative tests in single precision
+/// may keep different pairs.
 class WorkMeter {
  public:
   /// Adds the work just done or about to be done on a pair of nodes, on a pair of leaves, or on the exact tests of up
@@ -147,7 +147,7 @@ class TriangleSelection {
 };
 
 /// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so that every
-/// pair is a selected pair. Therefore a query is restricted only if both selections are given.
+/// pair is a selected pair. Therefore a query is restricted only if neither selection is null.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

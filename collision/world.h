@@ -60,8 +60,8 @@ struct WorldChanges {
 };
 
 /// Thread-safety: any thread may edit the world or move objects at any time. One thread is the consumer. A "take" is a
-/// call of `take_changes`. An id is stale if it is default-constructed or if its object was removed. Do not use an id
-/// in another world than its own.
+/// call of `take_changes`. An id is stale if it is default-constructed or if its object was removed. Use an id only in
+/// the world that returned it.
 class World {
  public:
   /// A world for at most `capacity` objects. The world takes about 0.9 kB for each of them. Throws

@@ -7,7 +7,7 @@
 
 namespace glissade::contact {
 
-/// A motion of all movers, over t from 0 to 1.
+/// A motion of all movers. The parameter t runs from 0 to 1.
 class BodiesMotion {
  public:
   virtual ~BodiesMotion() = default;

@@ -16,10 +16,10 @@
 
 namespace glissade::contact {
 
-/// Numbers the bodies: first the fixed bodies, then the objects, then the movers. Objects stand still while movers
-/// move. Between two motions, the caller may place objects elsewhere. Only pairs of a mover with a fixed body or an
-/// object are considered. Not thread-safe. After the first few calls with the same bodies, memory is allocated only for
-/// new contacts.
+/// Bodies are numbered: first the fixed bodies, then the objects, then the movers. Objects stand still while movers
+/// move. Between two motions, the caller may move objects to other places. Only pairs of a mover and a fixed body, and
+/// of a mover and an object, are considered. Not thread-safe. After the first few calls with the same bodies, memory is
+/// allocated only for new contacts.
 class CertifiedBodies {
  public:
   /// `margin` (metres) is the gap to all other bodies at which the caller should stop the movers. A certified motion
@@ -64,10 +64,10 @@ class CertifiedBodies {
   void find_contacts(std::vector<Contact>& contacts);
 
   /// Proves that `motion` from the present poses touches nothing. Returns false if no proof is found. `failures` then
-  /// has the contacts in the way, at the present poses. If the result is false and `failures` is empty, the motion is
-  /// too long. A motion longer than the reach of the last `look` costs another search. No body moves.
+  /// has the contacts that prevent the proof, at the present poses. If the result is false and `failures` is empty, the
+  /// motion is too long. A motion longer than the reach of the last `look` costs another search. No body moves.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
-  /// As `certify`. Also proves that the gap of every pair of bodies stays at least the margin of the pair minus
+  /// Like `certify`. Also proves that the gap of every pair of bodies never falls below the pair's margin minus
   /// `most_taken` (metres, less than `margin()`).
   bool certify_taking(double most_taken, const BodiesMotion& motion, std::vector<Contact>& failures);
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// A mesh prepared for sliding contact. It serves as a part (an object that a hand or a script moves) or as an
+/// A mesh prepared for sliding contact. The mesh belongs to a part (an object that a hand or a script moves) or to an
 /// obstacle.
 
 #include <filesystem>
@@ -77,7 +77,7 @@ class SlidingPart : public ContactBody {
 /// warnings and counts of `geometry::import_mesh` are lost. Call `geometry::import_mesh` to get them. Throws
 /// std::invalid_argument, naming the file, as `geometry::import_mesh` does.
 std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale = 1.0);
-/// As `load_body`, for a part. The compliance point is the centre of the bounding box.
+/// Like `load_body`, for a part. The compliance point is the centre of the bounding box.
 std::shared_ptr<const SlidingPart> load_part(const std::filesystem::path& file, double scale = 1.0);
 
 /// A body that stands still. Several obstacles may share one `ContactBody`.

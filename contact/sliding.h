@@ -40,19 +40,19 @@ struct ScriptedPart {
 /// Converts a scripted part for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
 HeldPart held_by_script(const ScriptedPart& part);
 
-/// The simulation of one part among fixed obstacles and scripted parts. Sliding is a `MultiPartSliding` whose part 0 is
-/// the part; the scripted parts follow. Deterministic: the same calls give the same bits. Not thread-safe; several
-/// simulations may share bodies.
+/// The simulation of one part among fixed obstacles and scripted parts. In the underlying `MultiPartSliding`, the part
+/// has number 0, and the scripted parts follow. Deterministic: the same calls give the same bits. Not thread-safe;
+/// several simulations may share bodies.
 class Sliding {
  public:
-  /// Throws std::invalid_argument as `MultiPartSliding` does.
+  /// Throws what the constructor of `MultiPartSliding` throws.
   Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,
           const Eigen::Isometry3d& X_WV_start, const SlidingOptions& options = {},
           const std::vector<ScriptedPart>& scripted = {});
 
-  /// The hand grasps the part, also if the hand holds the part already. From now on the ghost is at X_WG, even if the
-  /// part is elsewhere. The part does not move in this call. The metaphor determines how the next calls of `advance`
-  /// treat the offset between ghost and part:
+  /// The hand grasps the part, or grasps it anew if it already holds the part. From now on the ghost is at X_WG, even
+  /// if the part is elsewhere. The part does not move in this call. The metaphor determines how the next calls of
+  /// `advance` treat the offset between ghost and part:
   /// - With `force-feedback` the part closes the offset at a limited speed. Meanwhile the offset exerts no force on the
   ///   hand.
   /// - With the rubber bands the part closes the offset at unlimited speed.
@@ -70,7 +70,7 @@ class Sliding {
   /// millisecond of motion. `geometry::rigid_pose` corrects X_WG to a rotation and translation. The part stands still
   /// if `rigid_pose` rejects X_WG or if the part is released. `milliseconds` (finite and not negative) is the time
   /// between the ghost poses of the last call and of this call. A caller that is late passes the whole time, so that
-  /// the part catches up. Scripts advance by `milliseconds` in any case.
+  /// the part catches up. Scripts always advance by `milliseconds`.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
 
   const SlidingResult& result() const { return sliding_.result(0); }

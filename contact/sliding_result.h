@@ -3,9 +3,9 @@
 /// The result of a simulation of sliding contact: poses, state and contacts.
 ///
 /// A part is an object that a hand moves. For a part, every fixed body and every other part is an obstacle. The ghost
-/// is the pose that the part would have if nothing were in the way. The target is the pose at which the part aims. The
-/// metaphor, i.e. the rule by which the hand moves the part, computes the target from the ghost. The visible part
-/// follows the target as far as the contacts allow.
+/// is the pose that the part would have if nothing were in the way. The target is the pose towards which the part
+/// moves. The metaphor is the rule by which the hand moves the part. It determines the target from the ghost. The
+/// visible part follows the target as far as the contacts allow.
 
 #include <cstdint>
 #include <limits>

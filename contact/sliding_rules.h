@@ -51,8 +51,8 @@ enum class OverlapRule : std::uint8_t {
   /// The part leaves the obstacle without turning, at kSlew_m (`spring.h`) per millisecond, whatever the hand does. The
   /// path is short and straight, and leads no deeper into any body. Other obstacles stop the part as usual. If the part
   /// overlaps several obstacles, it leaves the deepest overlap first. If there is no such path, or if the path is
-  /// blocked for twenty calls, the part follows the hand as far as the overlap gets no deeper. Once apart, part and
-  /// obstacle are an ordinary pair. The constructor still throws for:
+  /// blocked for twenty calls, the part follows the hand as far as this does not deepen the overlap. Once apart, part
+  /// and obstacle are an ordinary pair. The constructor still throws for:
   /// - a scripted part (see `HeldPart::script`)
   /// - a closed part that no inset (see `inset_mesh`) frees
   /// - an open part that is free on no side within two margins
@@ -70,9 +70,9 @@ struct SlidingRules {
   std::optional<double> margin{};
   Friction friction{};
   OverlapRule overlap = OverlapRule::kRefuse;
-  /// Starts a spiral search when contacts keep a part from its target. In the same way, a hand searches for a hole with
-  /// a peg. In a spiral search, the part aims at poses on a growing spiral about the target. These poses are up to 1.6
-  /// mm beside the target, and tilted by up to 1.4°. A search lasts two seconds at most.
+  /// Starts a spiral search when contacts keep a part from its target. A hand with a peg searches for a hole in the
+  /// same way. In a spiral search, the part moves towards poses on a growing spiral about the target. These poses are
+  /// up to 1.6 mm beside the target, and tilted by up to 1.4°. A search lasts two seconds at most.
   bool spiral_search = false;
   /// A separate thread searches for near triangles in advance, so that few calls wait for a search. Set this to true
   /// for simulations in real time. Poses and forces are the same to the bit with and without the thread.
@@ -82,16 +82,16 @@ struct SlidingRules {
   /// to 3 mm, or less where searches find very many pairs of triangles. Finite and not negative.
   double contacts_ahead_ms = 0.0;
   /// Number of pairs that a search may find, at least 1. If a search finds more pairs, the radius of the next searches
-  /// is halved (but not below 0.2 mm), and steps become shorter. Answers then take less time, but a fast part falls
-  /// behind. A search that finds more than two million pairs of triangles and boxes is repeated with a much smaller
-  /// radius. A search at the smallest radius is repeated with twice the limit of pairs.
+  /// is halved (but not below 0.2 mm), and steps become shorter. Answers then take less time, but a fast part lags
+  /// behind its target. A search that finds more than two million pairs of triangles and boxes is repeated with a much
+  /// smaller radius. A search at the smallest radius is repeated with twice the limit of pairs.
   std::size_t affordable_pairs = 30'000;
   /// Largest work of the searches of one call. The cycles of one call may use the same amount in addition. If searches
   /// use more than half of the budget on average, the reach becomes shorter. The unit is about a nanosecond of an
   /// ordinary processor. The work counts pairs and proofs, so no bit of a result depends on the machine's speed or
   /// instruction set. A call ends when the work is used up, or one indivisible piece later. A piece is a projection on
-  /// the contacts, or the proof for a pair of boxes or leaves. At least 2; std::nullopt means no limit. With a limit
-  /// but without `has_search_thread`, searches have a thread that works only while the simulation waits.
+  /// the contacts, or the proof for a pair of boxes or leaves. At least 2; std::nullopt means no limit. If there is a
+  /// limit and `has_search_thread` is false, searches run in a thread that works only while the simulation waits.
   std::optional<std::int64_t> work_budget{};
 
   bool operator==(const SlidingRules&) const = default;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Contacts for lists, logs and displays. Each contact keeps a number over time, and contacts in one plane merge into
-/// patches. The simulation itself uses neither the numbers nor the patches.
+/// Contacts for lists, logs and displays. Each contact keeps its number over time. Contacts in one plane are merged
+/// into patches. The simulation itself uses neither the numbers nor the patches.
 
 #include <cstdint>
 #include <span>
@@ -26,24 +26,27 @@ struct TrackedContact {
 /// A contact **touches** when its force is positive or its gap is at most two margins. (The margin is the gap at which
 /// contacts stop the part.)
 ///
-/// Contacts with one obstacle are merged if all three conditions hold: their normals are within 1°; their points on the
-/// part are within a margin of each other; their points on the obstacle are within a margin of each other. For example,
-/// a vertex over the common edge of coplanar triangles makes a contact with each of these triangles. An edge that
-/// crosses two other edges at their common vertex makes a contact with each of these two edges. The merged contact
-/// takes the place of the first contact in the order of `update`. The force of the merged contact is the sum of the
-/// forces of all merged contacts.
+/// Contacts with one obstacle are merged if three conditions hold:
+/// - Their normals are within 1°.
+/// - Their points on the part are within a margin of each other.
+/// - Their points on the obstacle are within a margin of each other.
 ///
-/// A contact gets its number when it first touches. It **keeps** the number while its force is positive or its gap is
-/// at most three margins. So the number stays the same if the gap varies about two margins. Contacts of two successive
-/// updates are the same contact, with the same number, in two cases:
+/// For example, a vertex over the common edge of coplanar triangles makes a contact with each of these triangles. An
+/// edge that crosses two other edges at their common vertex makes a contact with each of these two edges. The merged
+/// contact takes the place of the first contact in the order of `update`. The force of the merged contact is the sum of
+/// the forces of all merged contacts.
+///
+/// A contact gets its number when it first touches. The contact **keeps** its number while its force is positive or its
+/// gap is at most three margins. So the number stays the same if the gap varies about two margins. Contacts of two
+/// successive updates are the same contact, with the same number, in two cases:
 /// 1. Obstacle, kind, features and triangles are the same.
 /// 2. The old contact has no successor by case 1, and the new contact continues the old contact. A contact continues
 ///    another contact if the obstacle is the same, the normals are within 10°, the contact points on the part are at
 ///    most d apart, and the contact points on the obstacle are at most d apart. Here d is the sum of the motion of the
 ///    part at the contact, `obstacle_travel` and three margins.
 ///
-/// By case 2, a contact stays the same when its point passes to the next triangle or edge of a flat or smooth face.
-/// When the point goes round a corner, the contact becomes another contact. If a new contact could continue several old
+/// By case 2, a contact keeps its number when its point passes to the next triangle or edge of a flat or smooth face.
+/// When the point goes round a corner, a contact with a new number begins. If a new contact could continue several old
 /// contacts, it continues an old contact that shares a feature with it, if there is one. Among several such old
 /// contacts, the new contact continues the nearest. Among equally near old contacts, the new contact continues the
 /// oldest.
@@ -55,11 +58,11 @@ class ContactTracker {
 
   /// Returns the touching contacts of `result`, in ascending order of obstacle, kind, part feature and obstacle
   /// feature. `result` must be the next result of the same simulation. A simulation may report contacts at the pose
-  /// before its last step (`SlidingResult::X_WV_of_contacts`). The tracker moves these contacts with the part to the
-  /// visible pose. The moved contacts are exact if the step is a translation along a face. `obstacle_travel` (metres)
-  /// bounds the motion of every point of an obstacle or another part since the last update. The returned span is valid
-  /// until the next update. Cost O(n log n) for n contacts. Allocates only when there are more contacts than ever
-  /// before.
+  /// before its last step (see `SlidingResult::X_WV_of_contacts`). The tracker moves these contacts with the part to
+  /// the visible pose. The moved contacts are exact if the step is a translation along a face. `obstacle_travel`
+  /// (metres) bounds the motion of every point of an obstacle or another part since the last update. The returned span
+  /// is valid until the next update. Cost O(n log n) for n contacts. Allocates only when there are more contacts than
+  /// ever before.
   std::span<const TrackedContact> update(const SlidingResult& result, double obstacle_travel = 0.0);
 
   /// The touching contacts of the last update.
@@ -111,12 +114,12 @@ struct ContactPatch {
 
 /// Merges contacts into patches. Not thread-safe.
 ///
-/// The oldest contact without a patch founds a patch. The plane of the patch goes through the founder's contact point,
-/// perpendicular to the founder's normal. A contact with the same obstacle joins the patch if two conditions hold: its
-/// normal is within 10° of the founder's normal; its point is within 1 % of ρ from the plane, where ρ is the radius of
-/// the part. Distance within the plane does not matter. For example, the contacts at the four corners of a box that
-/// lies flat are one patch. A patch has the id of its founder. The patch keeps this id while the founder touches and no
-/// older contact joins.
+/// The oldest contact without a patch begins a new patch as its founder. The plane of the patch goes through the
+/// founder's contact point, perpendicular to the founder's normal. A contact with the same obstacle joins the patch if
+/// its normal is within 10° of the founder's normal and its point is within 1 % of ρ from the plane. Here ρ is the
+/// radius of the part. Distance within the plane does not matter. For example, the contacts at the four corners of a
+/// box that lies flat are one patch. A patch has the id of its founder. The patch keeps this id while the founder
+/// touches and no older contact joins.
 class ContactPatches {
  public:
   /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).

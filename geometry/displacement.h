@@ -48,8 +48,9 @@ double motion_bound(const Displacement& d, double radius);
 /// linear.
 double fraction_within(const Displacement& d, double radius, double longest);
 
-/// The rigid pose nearest to an almost rigid X = (R, p). - If the `rotation_defect` of R is below 1e-12, the result is
-/// X itself. Every product of a few rotations has such a defect.
+/// The rigid pose nearest to an almost rigid X = (R, p):
+/// - If the `rotation_defect` of R is below 1e-12, the result is X itself. Every product of a few rotations has such a
+///   defect.
 /// - If the defect is between 1e-12 and 1e-4, the nearest rotation replaces R.
 /// - For a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond ±1e9 m, the result
 ///   is std::nullopt.

@@ -28,7 +28,7 @@ TriangleMesh make_torus(double major_radius, double minor_radius, std::int64_t t
 /// ± height/2. `rim_radius` must be greater than `waist_radius`.
 TriangleMesh make_hyperboloid(double waist_radius, double rim_radius, double height, std::int64_t triangle_count);
 
-/// Box about the origin with edge lengths `size`; each face is a grid of nearly square cells.
+/// Box about the origin with edge lengths `size`. Each face is a grid of nearly square cells.
 TriangleMesh make_box(const Eigen::Vector3d& size, std::int64_t triangle_count);
 
 /// Flat open sheet without thickness in the plane z = 0, about the origin, facing +z.
@@ -45,7 +45,8 @@ TriangleMesh make_hose(std::span<const Eigen::Vector3d> points, double radius, s
 /// Surface of revolution. The polyline through `profile` is revolved about z in `segments` ≥ 3 steps. The profile has
 /// at least two points (r, z) with r ≥ 0. An end of the profile on the axis (r = 0) closes the surface there. If
 /// `closed` is true, a last segment joins the last point to the first. Triangles face away from the axis where z
-/// increases along the profile, i.e. to the right of the profile's direction in a drawing with r to the right and z up.
+/// increases along the profile. In a drawing with r to the right and z up, they face to the right of the profile's
+/// direction.
 TriangleMesh make_revolution(std::span<const Eigen::Vector2d> profile, bool closed, int segments);
 
 }  // namespace glissade::geometry

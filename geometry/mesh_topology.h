@@ -18,11 +18,11 @@ namespace glissade::geometry {
 /// Edges and vertices of a mesh with their neighborhoods. Each edge and each vertex has one owner, i.e. one of the
 /// triangles that meet at it. A contact search considers an edge or vertex only at its owner. So the search finds every
 /// contact once, always with the same feature numbers. Degenerate triangles are ignored. Immutable after construction,
-/// so threads may share it.
+/// so threads may share an object.
 ///
 /// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). A
 /// feature stops another mesh if a contact at this feature keeps the two meshes apart. In every contact of two meshes,
-/// either a vertex of one mesh meets a face, edge or vertex of the other mesh, or two edges meet.
+/// a vertex of one mesh meets a face, edge or vertex of the other mesh, or two edges meet.
 class MeshTopology {
  public:
   struct Edge {
@@ -47,9 +47,9 @@ class MeshTopology {
   /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
   /// Whether a vertex can stop another mesh. All vertices can, except those inside a plane patch or inside a straight
-  /// rim. A vertex is inside a plane patch if all its edges are flat. In its place, the features on the boundary of the
-  /// patch stop other meshes. A rim is a chain of edges that are not flat. A rim ends at vertices where it bends or
-  /// meets other rims. A vertex is inside a straight rim if three conditions hold:
+  /// rim. A vertex is inside a plane patch if all its edges are flat. In place of such a vertex, the features on the
+  /// boundary of the patch stop other meshes. A rim is a chain of edges that are not flat. A rim ends at vertices where
+  /// it bends or meets other rims. A vertex is inside a straight rim if three conditions hold:
   /// - Exactly two edges of the vertex are not flat.
   /// - These two edges continue each other without a bend.
   /// - The vertex lies within 0.1 µm of the chord between the ends of the rim.

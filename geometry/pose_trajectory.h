@@ -29,10 +29,11 @@ struct FrameVelocity {
 /// construction, so threads may share it.
 class PoseTrajectory {
  public:
-  /// Throws std::invalid_argument if there is no row. Also throws, naming the row (counted from 0), if the time of a
-  /// row is not greater than the time of the row before, if a pose is not finite, or if the matrix R of a pose is not a
-  /// rotation. R counts as a rotation if it is not a reflection and no entry of RᵀR − 1 exceeds 1e-3 in absolute value
-  /// (1 is the identity matrix).
+  /// Throws std::invalid_argument if there is no row. Also throws, naming the row (counted from 0), in these cases:
+  /// - The time of a row is not greater than the time of the row before.
+  /// - A pose is not finite.
+  /// - The matrix R of a pose is a reflection, or an entry of RᵀR − 1 exceeds 1e-3 in absolute value (1 is the identity
+  ///   matrix).
   explicit PoseTrajectory(std::vector<TimedPose> rows);
 
   /// The rows, as given to the constructor or as scaled in time. Valid as long as the trajectory.

@@ -37,8 +37,7 @@ struct TriangleMesh {
 };
 
 /// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded, so the input
-/// meshes stay separate components. Throws std::invalid_argument when the result would have more than 2^31 - 1
-/// vertices.
+/// meshes stay separate components. Throws std::invalid_argument if the result would have more than 2^31 - 1 vertices.
 TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
 /// The mesh `mesh_B`, whose coordinates are in frame B, in coordinates of frame A.

@@ -21,9 +21,9 @@ inline constexpr int kHapticPriority = 80;
 inline constexpr int kLinkPriority = 75;        ///< receives states and sends commands, or vice versa
 inline constexpr int kSimulationPriority = 70;  ///< computes contacts
 
-/// The shares of time for which threads other than the haptic thread have their priority. If the SCHED_FIFO threads of
-/// a processor compute for nearly all of a second (by default 0.95 s, `sched_rt_runtime_us`), the kernel stops them
-/// all, including the haptic thread. With one glove, the shares add up to 0.8 of one processor.
+/// The shares of time for which threads other than the haptic thread have their priority. The kernel stops all
+/// SCHED_FIFO threads of a processor, including the haptic thread, if they compute for nearly all of a second (by
+/// default 0.95 s, see `sched_rt_runtime_us`). With one glove, the shares add up to 0.8 of one processor.
 inline constexpr double kLinkShare = 0.1;  ///< share of each thread that receives or sends
 inline constexpr double kSimulationShare = 0.4;
 inline constexpr double kSearchShare = 0.2;  ///< share of a thread that searches for contacts
@@ -88,7 +88,7 @@ class TimeShare {
 /// thread must not use it, because `check` calls the system.
 class FifoShare {
  public:
-  /// Requests `priority` as `schedule_this_thread` does.
+  /// Requests `priority` in the same way as `schedule_this_thread`.
   FifoShare(int priority, double share)
       : priority_(priority), share_(share), scheduling_(schedule_this_thread(priority)) {}
 

@@ -110,13 +110,13 @@ struct Scene {
   std::vector<std::string> movable_names() const;
 };
 
-/// Reads a scene file, and the meshes and motions that the file names. All keys: see docs/scene_files.md. Objects with
-/// the same mesh share one copy. The file at `script_path` is not read. Throws std::invalid_argument for every
+/// Reads a scene file, and the meshes and motions that the file names. For all keys, see docs/scene_files.md. Objects
+/// with the same mesh share one copy. The file at `script_path` is not read. Throws std::invalid_argument for every
 /// deviation from the format. The message is one line with the file, the line and the key or value. May block on the
 /// disk. Thread-safe. Reading the meshes takes most of the time.
 Scene read_scene(const std::filesystem::path& path);
 
-/// As `read_scene`, for a text in memory. `source` replaces the name of the file in messages. Paths in the scene are
+/// Like `read_scene`, for a text in memory. `source` replaces the name of the file in messages. Paths in the scene are
 /// relative to `base_folder`.
 Scene parse_scene(const std::string& text, const std::string& source, const std::filesystem::path& base_folder);
 

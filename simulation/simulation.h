@@ -24,8 +24,8 @@ namespace glissade::simulation {
 /// numbered as in `SceneBodies`; parts and hands are numbered as in the scene. Deterministic. Not thread-safe.
 class Simulation {
  public:
-  /// Throws std::invalid_argument as `bodies_of` and `grasping::GraspSimulation` do, and for a scene without movable
-  /// objects.
+  /// Throws std::invalid_argument for a scene without movable objects. Also throws what `bodies_of` and the constructor
+  /// of `grasping::GraspSimulation` throw.
   explicit Simulation(const Scene& scene);
   Simulation(Simulation&&) noexcept = default;
   Simulation& operator=(Simulation&&) noexcept = default;
@@ -35,11 +35,11 @@ class Simulation {
   /// released a part, this call grasps the part again. Throws std::invalid_argument for another number of poses, and
   /// for a scene with hands, because there the hands lead the parts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
-  /// As the other `advance`, for a scene with one part. Also throws for a scene with several parts.
+  /// Like the other `advance`, for a scene with one part. Also throws for a scene with several parts.
   void advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) { advance({&X_WG, 1}, milliseconds); }
   /// Moves each hand of the scene towards its posture for `milliseconds`, and moves the parts with the hands.
-  /// std::nullopt means that the tracking of the hand is lost. Do not call this after a `haptics::HapticServer` has led
-  /// the hands. Throws std::invalid_argument unless there is one posture for each hand.
+  /// std::nullopt means that the tracking of the hand is lost. Do not call this function after a
+  /// `haptics::HapticServer` has led the hands. Throws std::invalid_argument unless there is one posture for each hand.
   void advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds = 1.0);
 
   std::size_t part_count() const { return bodies_.parts.size(); }
@@ -48,7 +48,7 @@ class Simulation {
   /// has the name "nothing".
   const std::string& name_of_body(std::int32_t body) const;
 
-  // Properties of the part with this number:
+  // Properties of the part with the number `part`:
   /// Poses, state and contacts after the last call.
   const contact::SlidingResult& result(std::size_t part) const { return engine_.parts().result(part); }
   const Eigen::Isometry3d& X_WV(std::size_t part) const { return result(part).X_WV; }
@@ -57,16 +57,16 @@ class Simulation {
   /// The wrench of the contacts on the hands that hold the part, about the part's compliance point, in world axes.
   /// Exactly zero while no contact pushes. At rest, the wrench balances the coupling spring.
   contact::Wrench wrench(std::size_t part) const;
-  /// The touching contacts. Their numbers stay the same from call to call (see `contact::ContactTracker`) if this is
-  /// called after every `advance`. A hand that moves along the part makes new contacts. The span is valid until the
-  /// next call.
+  /// The touching contacts. Contacts keep their numbers from call to call (see `contact::ContactTracker`) if this
+  /// function is called after every `advance`. A hand that moves along the part makes new contacts. The span is valid
+  /// until the next call.
   std::span<const contact::TrackedContact> contacts(std::size_t part);
   /// Distance (metres) from the part to the nearest other body of the scene; `farthest` if no body is nearer. Hands do
   /// not count. 0 if the part intersects a body, which is possible only for overlaps at the start. Cost: one query for
   /// each body.
   double clearance(std::size_t part, double farthest = std::numeric_limits<double>::infinity());
 
-  /// The underlying simulation, with hands and statistics. The argument of a `haptics::HapticServer`.
+  /// The underlying simulation, with hands and statistics. A `haptics::HapticServer` takes it as its argument.
   grasping::GraspSimulation& engine() & { return engine_; }
   const grasping::GraspSimulation& engine() const& { return engine_; }
   operator grasping::GraspSimulation&() & { return engine_; }

@@ -19,15 +19,15 @@ namespace glissade::viewer {
 /// Makes frames from the states of ticks. A frame shows the newest state, and the greatest force, age, lateness and
 /// duration since the last frame. Not thread-safe; allocates.
 ///
-/// A frame is little endian. It begins with two numbers in double precision: the time of the tick in seconds, and the
-/// number of the tick. All further numbers have single precision. A pose is x, y, z in metres relative to
-/// `ViewScene::p_WO()`, followed by the quaternion w, x, y, z.
+/// All numbers in a frame are little endian. A frame begins with two numbers in double precision: the time of the tick
+/// in seconds, and the number of the tick. All further numbers have single precision. A pose is x, y, z in metres
+/// relative to `ViewScene::p_WO()`, followed by the quaternion w, x, y, z.
 /// - The next ten numbers are: 1 if the contact set was late, otherwise 0; the greatest age of the contact set in ms;
 ///   the greatest lateness of a tick in µs; the greatest duration of a tick in µs; the number of frames that this
 ///   viewer has missed; the number of parts; the number of hands; the number of contacts; the number of patches; the
 ///   number of patches left out.
-/// - For each part: the pose of the ghost G; the pose of the visible part V; the lag of the reference point in metres;
-///   the lag of the rotation in radians; the state; the number of contacts that push.
+/// - For each part: the pose of the ghost G; the pose of the visible part V; the length of the lag's translation in
+///   metres; the angle of the lag's rotation in radians; the state; the number of contacts that push.
 /// - For each hand: the number of the part that the hand holds, or −1; the force in N (x, y, z); the torque in Nm (x,
 ///   y, z); the greatest force in N; the share of the contacts' force; 1 if the contacts were unsolved, otherwise 0;
 ///   the reasons of the server, as bits; the reasons of the glove, as bits; the energy in J; the activity, grasp, form

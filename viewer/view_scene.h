@@ -28,7 +28,7 @@ struct ViewObject {
 /// A hand. Hands are numbered as in `devices::HapticState`.
 struct ViewHand {
   std::string name{};                                  ///< such as "glove 1"
-  std::shared_ptr<const grasping::HandModel> model{};  ///< null: no fingers, only the force is shown
+  std::shared_ptr<const grasping::HandModel> model{};  ///< null: no fingers; a viewer shows only the force
   std::vector<Eigen::Isometry3d> X_WL{};  ///< poses of the model's links; empty where the viewer moves the hand
 };
 
