@@ -68,8 +68,8 @@ struct Penetration {
 /// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
 /// apart. A query at the translated pose has confirmed this.
 ///
-/// Because of this query, the depth is a guaranteed upper bound of the shortest translation that separates the two
-/// surfaces. A shorter translation may exist. The search tries directions of the whole sphere, the normals of
+/// Because of this confirmation, the depth is a guaranteed upper bound of the shortest translation that separates the
+/// two surfaces. A shorter translation may exist. The search tries directions of the whole sphere, the normals of
 /// intersecting triangles, the axes of both frames and the diagonals between the axes. Then the search refines the best
 /// direction to a few thousandths of a radian. Along axes and diagonals, the search finds the nearest free place,
 /// however small. An example is the middle of a hole. Along other directions, the search may miss small free places.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// The DOP-tree: a bounding-volume hierarchy of discretely oriented polytopes over a triangle soup (paper §2.1). Build
-/// one tree per mesh and share it between objects and threads. The queries of `dop_query.h` take two trees. In all
-/// names and comments, "node" means an inner node of a tree; leaves are not nodes.
+/// one tree for each mesh. Objects and threads may share a tree. The queries of `dop_query.h` take two trees. In all
+/// names and comments, "node" means an inner node of a tree. Leaves are not nodes.
 
 #include <cstdint>
 #include <memory>
@@ -98,7 +98,7 @@ class DopTree {
   std::size_t leaf_count() const;
   /// The node with this number, which must be below `node_count`. Node 0 is the root, which has at least one child.
   TreeNode node(std::uint32_t number) const;
-  /// The triangles of the leaf with this number, which must be below `leaf_count`, as indices into the mesh. A negative
+  /// The triangles (indices into the mesh) of the leaf with this number, which must be below `leaf_count`. A negative
   /// entry is an unused place or a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 

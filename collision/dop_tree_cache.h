@@ -4,10 +4,10 @@
 /// in every run.
 ///
 /// A file holds only the shape of a tree, i.e. which triangles share a leaf, and which leaves and nodes share a parent.
-/// The reader checks that the shape is one tree of all triangles. Then the reader fits the bounding volumes to the
-/// given mesh. So a damaged or forged file is either rejected or gives a tree with correct answers. With 100,000
-/// triangles, building a tree takes 102 ms of processor time, and reading it from a file takes 31 ms. The file takes
-/// 4.4 bytes a triangle.
+/// `read_tree_cache` checks that the shape is one tree of all triangles, and fits the bounding volumes to the given
+/// mesh. So a damaged or forged file is either rejected or gives a tree with correct answers. With 100,000 triangles,
+/// building a tree takes 102 ms of processor time, and reading the tree from a file takes 31 ms. The file takes 4.4
+/// bytes a triangle.
 ///
 /// A file is valid only for the same vertices and triangles, the same options, and the same version of the format. The
 /// version of the format also changes when the method of building changes. The byte order is the same on every machine.

@@ -74,7 +74,7 @@ struct FrameReport {
   /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs for which
   /// no separating plane was found. Pairs that met in the last frame count as Out without a test.
   StageReport separating_planes;
-  /// In: the pairs that left the stage of separating planes. Out: those of these pairs that meet.
+  /// In: the pairs that left the stage of separating planes. Out: the pairs that meet.
   StageReport exact;
   /// In: pairs that have begun or ceased to meet. Out: all pairs that meet, including pairs at rest.
   StageReport result;

@@ -7,10 +7,10 @@
 /// a part touches or overlaps a body at the start, the part never gets deeper into this body.
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
-/// contacts with a gap below a search radius, which is called the reach. The cycle then projects the wanted
-/// displacements of the parts on the displacements that these contacts allow, in the metric of the coupling stiffness.
-/// The result is a step. The parts take the step only with a certificate, i.e. a proof that every triangle pair within
-/// reach stays apart on the whole path.
+/// contacts with a gap below the reach, i.e. the radius of the search. The cycle then projects the wanted displacements
+/// of the parts on the displacements that these contacts allow, in the metric of the coupling stiffness. The result is
+/// a step. The parts take the step only with a certificate, i.e. a proof that every triangle pair within reach stays
+/// apart on the whole path.
 ///
 /// The paper instead finds the instant of contact by bisection, and derives a new direction from the contact. At this
 /// instant the gap is zero. An exact intersection test already reports a collision at gap zero, so no further motion is
@@ -35,8 +35,8 @@ namespace glissade::contact {
 
 class ContactScene;
 
-/// The depth (metres) to which a part at X_BV overlaps a body. The depth is the least distance by which all faces of
-/// the part must move inwards until the part is free. The depth is 0 if part and body are apart or only touch. If no
+/// The depth (metres) of the overlap of a part at X_BV with a body. The depth is the least distance by which all faces
+/// of the part must move inwards until the part is free. The depth is 0 if part and body are apart or only touch. If no
 /// distance frees the part, or if the part is an open surface, the result is the length of a translation that separates
 /// part and body. Cost: some hundred collision queries.
 double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
@@ -94,8 +94,8 @@ class MultiPartSliding {
   /// Like `Sliding::advance`, for all parts at once. X_WG must have one pose for each part. The poses of scripted parts
   /// are ignored. The scripts advance by `milliseconds` even while nothing else moves. A call that uses up its work
   /// (`SlidingRules::work_budget`) leaves the parts at the last certified poses and sets `SlidingResult::ended_early`.
-  /// If such a call ends within a cycle, the next call first completes this cycle with the old ghosts. It then goes on
-  /// with the new ghosts.
+  /// If such a call ends within a cycle, the next call first completes this cycle with the old ghosts. Then the next
+  /// call goes on with the new ghosts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
   /// Whether the last call ended within a cycle. The next `advance` completes this cycle. Any other call that changes
   /// the simulation abandons this cycle.

@@ -19,7 +19,7 @@
 namespace glissade::contact {
 
 /// The constraint of one contact, n·(v + w × r) ≥ bound, on a displacement (v, w) of the part. v is the translation of
-/// the part's reference point in metres; w is the rotation vector about that point in radians.
+/// the part's reference point in metres. w is the rotation vector about that point in radians.
 struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
@@ -29,8 +29,8 @@ struct ConstraintRow {
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
 };
 
-/// A constraint on the displacement of `part`. For a contact of two parts, it constrains the displacement of `part`
-/// relative to `other`.
+/// A constraint on the displacement of `part`. For a contact of two parts, the row constrains the displacement of
+/// `part` relative to `other`.
 struct CoupledRow : ConstraintRow {
   std::int32_t part = 0;
   std::int32_t other = -1;                            ///< number of the other part; −1: an obstacle

@@ -4,8 +4,8 @@
 ///
 /// A part is an object that a hand moves. For a part, every fixed body and every other part is an obstacle. The ghost
 /// is the pose that the part would have if nothing were in the way. The target is the pose towards which the part
-/// moves. The metaphor is the rule by which the hand moves the part. It determines the target from the ghost. The
-/// visible part follows the target as far as the contacts allow.
+/// moves. The metaphor is the rule by which the hand moves the part. The metaphor determines the target from the ghost.
+/// The visible part follows the target as far as the contacts allow.
 
 #include <cstdint>
 #include <limits>
@@ -48,9 +48,9 @@ struct Contact {
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
   /// Numbers of the two features. A face has the number of its triangle. An edge has its number in
-  /// `geometry::MeshTopology`, and a vertex its number in the mesh. −1 means that the features are unknown. This is so
-  /// for overlaps, for contacts of triangle pairs whose certificate failed, and for contacts that the paper's method
-  /// cannot classify.
+  /// `geometry::MeshTopology`. A vertex has its number in the mesh. −1 means that the features are unknown. They are
+  /// unknown for overlaps, for contacts of triangle pairs whose certificate failed, and for contacts that the paper's
+  /// method cannot classify.
   std::int32_t part_feature = -1;
   std::int32_t obstacle_feature = -1;
   std::int32_t part = 0;  ///< number of the part
@@ -88,7 +88,7 @@ struct SlidingResult {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
   /// The visible part before the last step. With this pose, a caller can reconstruct the path of the last step only.
-  /// The paper's method does not set it.
+  /// The paper's method does not set this pose.
   Eigen::Isometry3d X_WV_before_step = Eigen::Isometry3d::Identity();
   SlidingState state = SlidingState::kFree;
   /// The contacts of the last cycle, for the part at X_WV_of_contacts. A contact pushes if its force is positive. With
@@ -101,8 +101,8 @@ struct SlidingResult {
   std::vector<Contact> contacts;
   Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
   /// `contacts` has every contact whose gap is smaller than `reach` (metres), with the part at X_WV_of_contacts. The
-  /// paper's method finds only the contacts at which its bisections ended. For that method, `reach` is the largest gap
-  /// that it can report.
+  /// paper's method finds only the contacts at which its bisections ended. With that method, `reach` is the largest gap
+  /// that can be reported.
   double reach = 0.0;
   int pushing = 0;  ///< number of contacts with a positive force
   /// The call ended because its work was used up. With more work, the part would have moved farther.
@@ -111,7 +111,7 @@ struct SlidingResult {
 };
 
 /// The wrench of a part's contacts on the hands that hold the part, about the reference point p_Vref, in world axes. At
-/// rest this wrench balances the coupling spring. The wrench is zero while the part only catches up.
+/// rest, this wrench balances the coupling spring. The wrench is zero while the part only catches up.
 Wrench contact_wrench(const SlidingResult& result, const Eigen::Vector3d& p_Vref);
 
 }  // namespace glissade::contact

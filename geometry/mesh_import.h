@@ -22,11 +22,11 @@ struct ImportedMesh {
   std::vector<std::string> warnings;
 };
 
-/// Reads all meshes of a file into one mesh. From a glTF file, the function reads the meshes of the default scene, at
-/// the places and with the deformations that the scene specifies. Vertices at identical positions are welded, polygons
-/// are triangulated, and degenerate triangles are dropped. Normals, texture coordinates, materials, lines and points
-/// are ignored without a warning. Other skipped items, such as unknown statements and faces of two corners, are
-/// reported as warnings. Coordinates are multiplied by `scale` (metres per unit of the file).
+/// Reads all meshes of a file into one mesh. From a glTF file, the function reads the meshes of the default scene, in
+/// the poses and with the deformations of this scene. Vertices at identical positions are welded, polygons are
+/// triangulated, and degenerate triangles are dropped. Normals, texture coordinates, materials, lines and points are
+/// ignored. Warnings report skipped items, such as unknown statements and faces of two corners. Coordinates are
+/// multiplied by `scale` (metres per unit of the file).
 ///
 /// Coordinates are read in double precision, even from a text PLY whose header declares floats. Scaling and the
 /// deformations of glTF add rounding errors of about 1e-16.

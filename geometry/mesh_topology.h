@@ -104,7 +104,7 @@ class MeshTopology {
   Lists neighbors_;
 };
 
-/// Size and defects of a mesh, for the user's information. Meshes with these defects are valid input for this library.
+/// Size and defects of a mesh, as information for the user. Meshes with these defects are valid input for this library.
 /// The counts are meaningful for welded meshes, because edges and components are found by shared vertex indices, not by
 /// positions. Degenerate triangles count only in `triangles` and `degenerate`.
 struct MeshReport {

@@ -37,7 +37,7 @@ class SceneMesh {
   /// `geometry::import_mesh` reads the file, otherwise `geometry::import_unwelded_mesh`. Throws std::invalid_argument,
   /// naming the file, as these functions do.
   SceneMesh(const std::filesystem::path& file, double scale, bool is_welded = true);
-  /// Makes a shape of the catalogue in docs/scene_files.md; parameters that are not given have their defaults. Throws
+  /// Makes a shape of the catalogue in docs/scene_files.md. Parameters that are not given have their defaults. Throws
   /// std::invalid_argument for an unknown shape or parameter (the message lists the known names) and for a value out of
   /// range.
   static SceneMesh of_shape(const std::string& type, const std::map<std::string, double>& parameters = {});
@@ -89,13 +89,13 @@ struct SceneObject {
   std::vector<std::int32_t> giving_way{};  ///< triangles that stop nothing, in ascending order
 };
 
-/// Objects with different names, hands with fingers, and the rules by which hands hold parts and parts touch.
+/// Objects with different names, hands with fingers, and the rules for holding and contact.
 struct Scene {
   std::vector<SceneObject> objects{};
   std::vector<grasping::HandShape> hands{};
   contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;
-  /// Stiffness of the coupling against translation. The stiffness against rotation is this times the square of the
-  /// part's radius.
+  /// Stiffness of the coupling against translation. The stiffness against rotation is this stiffness times the square
+  /// of the part's radius.
   double stiffness_N_per_m = contact::kUsualStiffness_N_per_m;
   contact::SlidingRules rules{};
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< unit vector against gravity, for grasps
@@ -120,16 +120,16 @@ Scene read_scene(const std::filesystem::path& path);
 /// relative to `base_folder`.
 Scene parse_scene(const std::string& text, const std::string& source, const std::filesystem::path& base_folder);
 
-/// Writes a scene file. `read_scene` reads this file back as an equal scene, with every number equal to the bit. The
-/// file has all objects, with poses as matrices, motions row by row, and shapes by their parameters. Mesh files and the
+/// Writes a scene file. `read_scene` reads an equal scene from this file, with every number equal to the bit. The file
+/// has all objects, with poses as matrices, motions row by row, and shapes by their parameters. Mesh files and the
 /// script are not copied: the scene file has their paths, relative to its folder. A mesh given as a value is written to
 /// STEM_N.obj in the same folder, where N is the number of the object (from 1). Objects that share such a mesh share
 /// the file.
 ///
-/// A file that exists with the same content is kept. If a file exists with other content, nothing is written.
+/// An existing file with the same content is kept. If an existing file has other content, nothing is written.
 ///
 /// Throws std::invalid_argument, naming the file or the object, in these cases:
-/// - A file exists with other content, or the folder does not exist.
+/// - An existing file has other content, or the folder does not exist.
 /// - The scene has hands, or a value that scene files cannot hold: rules, metaphor, stiffness or upward direction other
 ///   than the default.
 /// - `bodies_of` refuses an object.
@@ -169,7 +169,7 @@ struct SceneBodies {
 
 /// The objects with the names `part_names` become the parts, in this order. All other movable objects become obstacles.
 /// Throws std::invalid_argument, naming the scene and the object, in these cases:
-/// - No object has one of the names, or the scene has only one object.
+/// - A name in `part_names` belongs to no object, or the scene has only one object.
 /// - An object has no mesh, has no area at its pose, or reaches beyond ±1e9 m.
 /// - A part moves on its own, or is named twice.
 /// - Two objects have the same name.
