@@ -14,7 +14,7 @@
 
 namespace glissade::devices {
 
-/// One message and the time of its recording.
+/// A message and the time of its recording.
 struct LogEvent {
   std::chrono::microseconds time{0};  ///< since an epoch, the same for all events of a log
   std::string channel;
@@ -32,7 +32,7 @@ class EventLogWriter {
   /// Appends an event. `close` reports a failure.
   void write(const LogEvent& event);
 
-  /// Ends the log. Throws std::runtime_error, naming the file, when not everything could be written, for example on a
+  /// Ends the log. Throws std::runtime_error, naming the file, when something could not be written, for example on a
   /// full disk. The destructor reports no failure.
   void close();
 
@@ -42,8 +42,8 @@ class EventLogWriter {
   std::int64_t written_ = 0;
 };
 
-/// Reads a log from the beginning to the end, or up to the first damage. Accepts any bytes in a file. Ignores the
-/// numbers of events, so joined logs and logs with removed events are undamaged. Not thread-safe.
+/// Reads a log from the beginning to the end, or up to the first damage. A file may have any bytes. Ignores the numbers
+/// of events, so joined logs and logs with removed events are undamaged. Not thread-safe.
 class EventLogReader {
  public:
   /// Throws std::invalid_argument, naming the file, when it cannot be read or is no event log.
@@ -55,7 +55,7 @@ class EventLogReader {
   /// Number of events read so far.
   std::int64_t count() const noexcept { return count_; }
 
-  /// A sentence with the file, place and kind of the damage; empty without damage.
+  /// A sentence with the file, place and kind of the damage. It is empty if there is no damage.
   const std::string& damage() const noexcept { return damage_; }
 
  private:
@@ -82,7 +82,7 @@ struct LoggedState {
 /// An event with this message. The event's time is rounded down to microseconds.
 LogEvent to_event(std::chrono::nanoseconds time, std::string channel, std::vector<std::uint8_t> message);
 
-/// Events with the channel and message that the bus would carry.
+/// Events with the same channel and message as on the bus.
 LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
 LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state);
 LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);

@@ -84,9 +84,9 @@ struct GloveState {
   std::int64_t grip = 1;
   bool obeys_another = false;  ///< the glove obeys another server, and ignores the commands of this one
   bool is_enabled = true;      ///< false while the wearer does not hold the enable switch, if the glove has one
-  /// The reasons for which the envelope at the glove limited the last command. `command_age` is the time from the
-  /// measurement of the state that this command answers, i.e. the time of the whole round trip. Both are empty for a
-  /// glove in the same process.
+  /// `limits` has the reasons for which the envelope at the glove limited the last command. `command_age` is the time
+  /// since the measurement of the state that this command answers, i.e. the time of the whole round trip. Both are
+  /// empty for a glove in the same process.
   LimitReasons limits;
   std::chrono::nanoseconds command_age{0};
   std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` at the glove
@@ -106,10 +106,10 @@ struct GloveCommand {
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   hands::JointValues joint_torques{};               ///< positive toward larger joint angles
-  /// Total energy (J) so far that independently moving bodies, such as a part in another hand, have given to this hand,
-  /// less the energy that they ask back, plus the hand's work against force that was withheld. When `supply` rises, the
-  /// envelope lets force and torque give the hand as much more. When it falls, the hand gives up the energy that it can
-  /// spare (`GloveState::taken`).
+  /// Total energy (J) so far that independently moving bodies, such as a part in another hand, have given to this hand.
+  /// The energy that these bodies ask back is subtracted. The hand's work against force that was withheld is added.
+  /// When `supply` rises, the envelope lets force and torque give the hand as much more. When `supply` falls, the hand
+  /// gives up the energy that it can spare (`GloveState::taken`).
   double supply = 0.0;
 };
 
@@ -122,9 +122,9 @@ struct DeviceDescriptor {
   double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
-  /// The device alone, without forces and without a hand. These numbers give the stiffness that the device can render
-  /// passively (`passive_stiffness`, `finger_stiffness`). 0 means not known, so a device with hardly any damping must
-  /// give a small number.
+  /// The properties of the device alone, without forces and without a hand. They determine the stiffness that the
+  /// device can render passively (`passive_stiffness`, `finger_stiffness`). 0 means not known, so the descriptor of a
+  /// device with hardly any damping must have a small positive number.
   double damping = 0.0;               ///< viscous friction against translation
   double rotational_damping = 0.0;    ///< viscous friction against rotation
   double joint_damping = 0.0;         ///< viscous friction of each finger joint
@@ -133,8 +133,9 @@ struct DeviceDescriptor {
   double resolution = 0.0;            ///< smallest step, or standard deviation, of the measured position
   double joint_resolution = 0.0;      ///< smallest step of the measured joint angles
   std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, in addition to the period and the link
-  /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). With 0, force and torque may
-  /// go from zero to the maximum in seven periods of the device, and joint torques in two (`joint_torque_rate`).
+  /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). If a rate is 0, force and
+  /// torque may rise from zero to the maximum in seven periods of the device, and joint torques in two
+  /// (`joint_torque_rate`).
   double max_force_rate = 0.0;
   double max_torque_rate = 0.0;
   double max_joint_torque_rate = 0.0;
@@ -154,16 +155,15 @@ struct DeviceDescriptor {
 /// unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is negative.
 void validate(const DeviceDescriptor& descriptor);
 
-/// The lag (seconds) of the device's force behind the motion, in a loop of this period and behind a link of this delay:
-/// half a period, because the force is held for a period, plus the delays of device and link. The period counts as at
-/// least the device's.
+/// The lag (seconds) of the device's force behind the motion, in a loop of this period and behind a link of this delay.
+/// The lag is half a period, because the force is held for a period, plus the delays of device and link. If the
+/// device's period is longer, it replaces the period of the loop.
 double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
               std::chrono::nanoseconds link_delay) noexcept;
 
-/// The largest stiffness that is passive with the damping `told` at this lag (seconds): damping divided by lag, in
-/// matching units. If `told` is 0, the device counts as having the damping with which `greatest`, its largest
-/// stiffness, is passive without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems,
-/// 1997.
+/// The largest stiffness that is passive with the damping `told` at this lag (seconds), i.e. the damping divided by the
+/// lag. If `told` is 0, the damping is assumed with which the device's largest stiffness `greatest` is passive without
+/// a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
 double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept;
 
 /// The largest rate (Nm/s) of change of a joint torque.
@@ -180,8 +180,8 @@ struct GloveInfo {
 class SafeCommand;
 
 /// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
-/// functions are wait-free, allocate nothing and make no system call. A driver that must wait for its device does so in
-/// a thread of its own.
+/// functions are wait-free, allocate nothing and make no system call. A driver that must wait for its device waits in a
+/// separate thread.
 class GloveDevice {
  public:
   virtual ~GloveDevice() = default;
@@ -190,7 +190,8 @@ class GloveDevice {
   virtual const DeviceDescriptor& descriptor() const noexcept = 0;
 
   /// Copies the newest state to `newest` and returns true. Until the first state has arrived, leaves `newest` unchanged
-  /// and returns false. Later calls return true even if no new state has arrived; `sequence` then stays the same.
+  /// and returns false. Later calls return true even if no new state has arrived. `GloveState::sequence` then stays the
+  /// same.
   virtual bool read(GloveState& newest) noexcept = 0;
 
   /// Hands over `command` for sending. If an earlier command has not been sent yet, `command` replaces it.

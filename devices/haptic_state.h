@@ -66,12 +66,13 @@ struct HapticPartState {
 /// A hand after one haptic tick.
 struct HapticHandState {
   std::int32_t part = -1;  ///< number of the part that the hand holds; −1: none
-  /// The wrench on the hand that its device received, in world axes: N, and Nm about the origin of V, or about the hand
-  /// root while the hand holds nothing.
+  /// The wrench on the hand, as its device received it, in world axes (N, Nm). The torque is about the origin of V, or
+  /// about the hand root while the hand holds nothing.
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_V_W = Eigen::Vector3d::Zero();
-  /// The share of the contact force that may be exerted. The force follows it within 75 ms. It is less than 1 if the
-  /// contacts are old, if the hand has left them and the part lags behind, and while the force returns after that.
+  /// The share of the contact force that may be exerted. The force follows this share within 75 ms. The share is less
+  /// than 1 in three cases: the contacts are old; the contacts do not hold at the hand, because the part lags behind;
+  /// or the force is still returning after one of these two cases.
   double contact_share = 1.0;
   bool are_contacts_unsolved = false;       ///< the contacts had no solution, so their force goes to zero
   LimitReasons reasons;                     ///< why the device received less than the contacts demand
@@ -84,8 +85,9 @@ struct HapticHandState {
   hands::JointValues joint_torques{};       ///< Nm, as the device received them
 };
 
-/// The energy (J) that force and torque may still give to the hand. It is the value of the glove's envelope, which acts
-/// on what the hand really gets, if the glove's states report one. Otherwise it is the value of the server's envelope.
+/// The energy (J) that force and torque may still give to the hand. If the glove's states report this energy, it is the
+/// value of the glove's envelope, which acts on what the hand really gets. Otherwise it is the value of the server's
+/// envelope.
 inline double energy_left(const HapticHandState& hand) noexcept {
   return hand.command_age > std::chrono::nanoseconds(0) ? hand.glove_energy : hand.energy;
 }
@@ -97,7 +99,7 @@ struct HapticContact {
   Eigen::Vector3f n_W = Eigen::Vector3f::Zero();  ///< unit normal, from the obstacle to the part
 };
 
-/// Contacts of a part with one object that lie in one plane. At least one of them pushes.
+/// The contacts of a part with one object that lie in one plane. At least one of these contacts pushes.
 struct HapticPatch {
   std::int32_t part = 0;
   std::int32_t contact_count = 0;                 ///< number of contacts that push
@@ -106,8 +108,8 @@ struct HapticPatch {
   float extent = 0.0F;                            ///< distance from `p_V` to the farthest of these contacts, metres
 };
 
-/// One haptic tick. Its contact set is the simulation's newest answer to the ghost poses: the poses X_WV and the
-/// contacts of the parts.
+/// The state after one haptic tick. Its contact set is the simulation's newest answer to the ghost poses. The set has
+/// the poses X_WV and the contacts of the parts.
 struct HapticState {
   std::int64_t sequence = 0;                    ///< ≥ 0, increases with every tick
   std::chrono::nanoseconds time{0};             ///< time of the tick, on the haptic loop's clock

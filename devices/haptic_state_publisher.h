@@ -24,7 +24,7 @@ class HapticStatePublisher {
 
   using Listener = std::function<void(const HapticState&)>;
 
-  /// `listener` may be empty. It receives each state in the publisher's thread, also a state that cannot be sent.
+  /// `listener` may be empty. It receives each state in the publisher's thread, even a state that cannot be sent.
   /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, Listener listener = {},
                                 std::size_t capacity = kDefaultCapacity);

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A connection to LCM (Lightweight Communications and Marshalling). Any number of senders and receivers share a
-/// connection. Its URL selects the transport.
+/// A connection to LCM (Lightweight Communications and Marshalling), for any number of senders and receivers. The URL
+/// of the connection selects the transport.
 ///
 /// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
 /// processes and hosts by UDP multicast. With `ttl=0`, as in `udpm://239.255.76.67:7667?ttl=0`, messages stay on this
@@ -22,15 +22,15 @@ namespace glissade::devices {
 
 /// A secret that all programs on an address share. With a key, each message carries a code of 32 bytes (keyed BLAKE2b
 /// of channel and message), and messages without the right code are dropped. Nothing is encrypted. An attacker can
-/// resend a recorded message; sessions, sequences and ages limit the effect. LCM programs without the key see messages
-/// that are 32 bytes longer than their type.
+/// resend a recorded message, but sessions, sequences and ages limit the effect. LCM programs without the key see
+/// messages that are 32 bytes longer than their type.
 struct LcmKey {
   std::array<std::uint8_t, 32> bytes{};
 };
 
 /// Reads a key: one line of 64 hexadecimal digits, such as `openssl rand -hex 32` prints. Throws std::invalid_argument,
-/// naming the file, if the file cannot be read, has another content, or is readable or writable by others than its
-/// owner.
+/// naming the file, in these cases: the file cannot be read; it has another content; or a user other than its owner may
+/// read or write it.
 LcmKey read_lcm_key(const std::string& path);
 
 /// Sends and receives raw messages by channel. The first subscription starts one receive thread for all subscribers.
@@ -46,7 +46,7 @@ class LcmBus {
   /// subscription.
   using Handler = std::function<void(std::span<const std::uint8_t> message)>;
 
-  /// A subscription. Its destructor ends the subscription: after the destructor has returned, the handler does not run.
+  /// A subscription. The destructor ends the subscription. After the destructor has returned, the handler does not run.
   /// The bus must outlive the subscription.
   class Subscription;
 
@@ -61,16 +61,16 @@ class LcmBus {
   const std::string& url() const noexcept;
 
   /// Calls `handler` for every message on `channel`, until the returned subscription is destroyed. Throws
-  /// std::invalid_argument when the channel's name is not allowed, the handler is empty, or nothing can be received
-  /// from the URL.
+  /// std::invalid_argument in these cases: the channel's name is not allowed; the handler is empty; or nothing can be
+  /// received from the URL.
   [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
 
-  /// Sends `message`; returns false when the operating system does not accept it. Over memq, a message on a channel
-  /// without subscribers is lost. Throws std::invalid_argument when the channel's name is not allowed.
+  /// Sends `message`. Returns false when the operating system does not accept the message. Over memq, a message on a
+  /// channel without subscribers is lost. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Number of packets dropped so far because they came from another machine or interface, were not a packet of a
-  /// message, or had no valid code for the bus's key. Any thread.
+  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, is not a
+  /// packet of a message, or has no valid code for the bus's key. Any thread.
   std::uint64_t refused_packets() const noexcept;
 
  private:

@@ -3,9 +3,9 @@
 /// The two ends of a glove's LCM link: `LcmGlove` for the server, i.e. the program with the haptic loop, and
 /// `LcmGloveHost` for the program that drives the glove.
 ///
-/// Each end has a session, a random number drawn when it starts. Each end obeys one sender at a time, which holds the
-/// lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then its messages are
-/// counted in `LinkStatistics::other_sender`.
+/// Each end has a session, a random number drawn when it starts. Each end obeys one sender at a time. This sender holds
+/// the lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then, messages of
+/// the other sender are counted in `LinkStatistics::other_sender`.
 
 #include <atomic>
 #include <chrono>
@@ -33,20 +33,20 @@ class LinkMonitor;
 /// The default number of a device.
 inline constexpr std::int64_t kDefaultDevice = 1;
 
-/// Receives the announcements of gloves, from construction on. Each `LcmGloveHost` sends one on the channel GLOVE_INFO
-/// five times a second. Any thread.
+/// Receives the announcements of gloves, from construction on. Each `LcmGloveHost` sends its announcement on the
+/// channel GLOVE_INFO five times a second. Any thread.
 class GloveSearch {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive.
   explicit GloveSearch(std::shared_ptr<LcmBus> bus);
 
-  /// The newest announcement of the glove with this number. Waits for the first announcement; no value if none arrives
-  /// within `timeout`.
+  /// The newest announcement of the glove with this number. Waits for the first announcement. Returns no value if no
+  /// announcement arrives within `timeout`.
   std::optional<GloveInfo> wait_for(std::int64_t device, std::chrono::milliseconds timeout);
   /// The numbers of all gloves found so far, in ascending order.
   std::vector<std::int64_t> heard() const;
-  /// Sentences about received messages that do not lead to a glove: rejected announcements and states, and gloves that
-  /// send states but do not announce themselves.
+  /// Sentences that explain why a glove is not found. They name rejected announcements and states, and gloves that send
+  /// states but do not announce themselves.
   std::vector<std::string> troubles() const;
 
  private:
@@ -70,13 +70,13 @@ struct LcmGloveOptions {
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
-/// The haptic loop's end of the link: receives states on the channel GLOVE_STATE in the receive thread of the bus, and
-/// sends commands on GLOVE_COMMAND in a thread of its own. If any command was sent, the destructor sends a last command
-/// with zero forces and torques.
+/// The haptic loop's end of the link. It receives states on the channel GLOVE_STATE in the receive thread of the bus,
+/// and sends commands on GLOVE_COMMAND in a separate thread. If any command was sent, the destructor sends a last
+/// command with zero forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
-  /// Throws std::invalid_argument when the bus is null or cannot receive, the descriptor is not valid, or the send
-  /// period is not positive.
+  /// Throws std::invalid_argument in these cases: the bus is null or cannot receive; the descriptor is not valid; or
+  /// the send period is not positive.
   LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, const LcmGloveOptions& options = {});
   ~LcmGlove() override;
 
@@ -109,15 +109,15 @@ class LcmGlove final : public GloveDevice {
 struct LcmGloveHostOptions {
   std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to other gloves are rejected
   hands::HandSide side = hands::HandSide::kUnknown;
-  /// The greatest age, in periods, of the state that a command answers: the time for the way to the server and back.
-  /// When the state is older, the force fades. The period is that of the device, but at least a millisecond.
+  /// The greatest age, in periods, of the state that a command answers. This age includes the way to the server and
+  /// back. When the state is older, the force fades. The period is that of the device, but at least a millisecond.
   double patience_periods = 6.0;
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
-/// The glove driver's end of the link: announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
-/// commands on GLOVE_COMMAND. It limits each command by an envelope of its own. Thread-safety: one thread, the
-/// driver's, calls `publish` and `newest_command`.
+/// The glove driver's end of the link. It announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
+/// commands on GLOVE_COMMAND. A second envelope limits each command here. Thread-safety: one thread, the driver's,
+/// calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, or the descriptor is not valid.
@@ -125,12 +125,12 @@ class LcmGloveHost {
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state` together with the outcome of the last `newest_command`, and the announcement when it is due. Returns
-  /// false when the operating system does not accept the state. May block.
+  /// Sends `state` together with the outcome of the last `newest_command`. Also sends the announcement when it is due.
+  /// Returns false when the operating system does not accept the state. May block.
   bool publish(const GloveState& state);
 
-  /// The command for the device in this period; call it once a period. `newest` is the state measured last. There is no
-  /// force without a command, or if the newest command is old. Wait-free.
+  /// The command for the device in this period. Call this function once a period. `newest` is the state measured last.
+  /// There is no force without a command, or if the newest command is old. Wait-free.
   SafeCommand newest_command(const GloveState& newest) noexcept;
 
   /// Emergency stop: the force fades to zero and stays there. Wait-free, any thread.

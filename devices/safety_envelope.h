@@ -1,7 +1,7 @@
 #pragma once
 
 /// The safety envelope: the only way from a wanted command to a device. It enforces every limit of the device's
-/// descriptor. It lets the force fade whenever state or command is old, implausible or not permitted.
+/// descriptor. It lets the force fade whenever a state or a command is old, implausible or not permitted.
 
 #include <chrono>
 #include <memory>
@@ -24,9 +24,9 @@ class SafeCommand {
   std::chrono::nanoseconds age() const noexcept { return age_; }
   /// Time since the measurement of the glove's newest state.
   std::chrono::nanoseconds state_age() const noexcept { return state_age_; }
-  /// Energy (J) that force and torque may still give to the hand: `SafetyEnvelope`.
+  /// Energy (J) that force and torque may still give to the hand; see `SafetyEnvelope`.
   double energy() const noexcept { return energy_; }
-  /// Energy (J) that the hand has given up for others since the last interruption: `GloveState::taken`.
+  /// Energy (J) that the hand has given up for others since the last interruption; see `GloveState::taken`.
   double taken() const noexcept { return taken_; }
 
  private:
@@ -45,50 +45,50 @@ class SafeCommand {
 std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 std::string to_text(const SafeCommand& command);
 
-/// An envelope protects each device. A link has one at the server's end and one at the glove's end; a device in the
-/// server's process has a single one. The envelope remembers the last command and the last state, so call it once a
-/// period.
+/// An envelope protects each device. A link has an envelope at the server's end and another at the glove's end. A
+/// device in the server's process has a single envelope. The envelope remembers the last command and the last state, so
+/// call it once a period.
 ///
 /// Ages count from the measurement times in the states. The clocks of glove and caller may differ. The fastest message
-/// so far gives the difference, which may grow by 0.2 ms a second. The difference is determined anew if all states
-/// within a second are late although their times advance, or if the glove's clock goes back.
+/// so far gives the difference of the clocks, which may grow by 0.2 ms a second. The difference is determined anew in
+/// two cases: all states within a second are late although their times advance; or the glove's clock goes back.
 ///
-/// A passivity observer counts the work of force and torque on the hand, from the measured motion and the commands
-/// after all limits. Each command acts from the delay of the device on until the next command acts, for at most 10 ms.
-/// The energy is what the hand has put in and not got back, plus 0.1 J at the start for errors of sampling, and at most
-/// 0.25 m times the largest force. Joint torques are not counted. The wrench is a continuous function of the energy and
-/// the velocity. It never exceeds the wrench that the energy left could bring to zero as a spring does that the device
-/// renders passively (docs/safety.md has the derivation). At the end of a contact, the energy falls to at most 0.1 J.
-/// If it is below 0.1 J, or below what the wanted wrench needs, it recovers: at 0.3 W without a contact, more slowly in
-/// a trembling contact, and faster in a calm contact and after an interruption, by at most 1 J that refills at 0.25 W
-/// (docs/safety.md has the conditions). For a glove that tells the delay of its link, only the envelope at the glove's
-/// end limits the energy. So no delay and no error of the simulation can feed a fast oscillation of more than 20 mW,
-/// and a hand at rest feels no jump. Sources: Hannaford and Ryu, Time-domain passivity control of haptic interfaces,
-/// 2002, for the observer; Franken et al., Bilateral telemanipulation with time delays: a two-layer approach combining
-/// passivity and transparency, 2011, for wrenches that shrink with the energy in a tank and for tanks that exchange
-/// energy.
+/// A passivity observer computes the work of force and torque on the hand from the measured motion and from the
+/// commands after all limits. Each command acts from the delay of the device on until the next command acts, for at
+/// most 10 ms. The available energy is what the hand has put in and not got back, plus 0.1 J at the start for errors of
+/// sampling. It is at most 0.25 m times the largest force. Joint torques are not counted. The wrench is a continuous
+/// function of the energy and the velocity. The remaining energy must suffice to bring the wrench to zero as a spring
+/// does that the device renders passively; docs/safety.md has the derivation. At the end of a contact, the energy falls
+/// to at most 0.1 J. Energy below 0.1 J, or below what the wanted wrench needs, recovers. The rate is 0.3 W without a
+/// contact, lower in a trembling contact, and higher in a calm contact and after an interruption. The recovery is at
+/// most 1 J, which refills at 0.25 W; docs/safety.md has the conditions. For a glove that reports the delay of its
+/// link, only the envelope at the glove's end limits the energy. So no delay and no error of the simulation can feed a
+/// fast oscillation of more than 20 mW, and a hand at rest feels no jump. Source of the observer: Hannaford and Ryu,
+/// Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the energy in a tank,
+/// and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a two-layer approach
+/// combining passivity and transparency, 2011.
 ///
-/// Bodies that move on their own may push the hand. `GloveCommand::supply` tells the energy for this. A rise of
-/// `supply` counts as energy that the hand has put in, in proportion to the share of the wanted wrench that was
-/// exerted, and at most the largest power of the device times the time since the last command. When `supply` falls,
-/// others ask for energy. The hand gives up only energy that the wanted wrench does not need, beyond 0.1 J, so no force
-/// shrinks. The rest of the request is forgotten within some seconds. `SafeCommand::taken` tells the energy given up.
-/// After an interruption and from another sender, supply and taken count anew.
+/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`
+/// counts as energy that the hand has put in, in proportion to the share of the wanted wrench that was exerted. It
+/// counts at most as the largest power of the device times the time since the last command. When `supply` falls, others
+/// ask for energy. The hand gives up only energy beyond 0.1 J that the wanted wrench does not need, so no force
+/// shrinks. The rest of the request is forgotten within some seconds. `SafeCommand::taken` is the energy given up.
+/// After an interruption, and after a change of the sender, `supply` and `taken` count anew.
 ///
-/// A constant link delay of up to 150 ms for the whole round trip does not make commands old. Their age then counts
-/// from the smallest delay of all commands of the last half second or longer (`link_delay`).
+/// A constant link delay of up to 150 ms for the whole round trip does not make commands old. The age of commands then
+/// counts from the smallest delay of all commands of the last half second or longer (`link_delay`).
 ///
 /// Force and torque have separate maxima, so that a device without torque still gives its force. At a maximum, the axis
-/// of the wrench therefore moves. The power limit scales both by the same factor.
+/// of the wrench therefore moves. The power limit scales force and torque by the same factor.
 ///
-/// Force and torques fade within seven periods and return within 200 ms. A lower rate in the descriptor than
-/// `max_force` in seven periods makes both slower. Force and torque never exceed what this rate brings to zero within
-/// 15 periods, because the hand could draw energy from a greater force while it falls. Not thread-safe. Real-time safe:
-/// no allocation, no lock, no system call.
+/// Force and torques fade within seven periods and return within 200 ms. Both take longer if the rate in the descriptor
+/// is lower than `max_force` in seven periods. Force and torque never exceed what this rate brings to zero within 15
+/// periods, because the hand could draw energy from a greater force while this force falls. Not thread-safe. Real-time
+/// safe: no allocation, no lock, no system call.
 class SafetyEnvelope {
  public:
   /// Ages up to `patience_periods` periods are normal. A period is the longer of the periods of device and caller.
-  /// Throws as `validate` does.
+  /// Throws what `validate` throws.
   explicit SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods = 3.0,
                           std::chrono::nanoseconds period_of_caller = std::chrono::nanoseconds(0));
   /// A moved-from envelope must not be used.
@@ -102,8 +102,8 @@ class SafetyEnvelope {
   /// periods if this time is longer.
   SafeCommand limit(const GloveCommand& wanted, const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
-  /// Whether the newest state and the states of the last tenth of a second are finite and plausible. `limit` may be
-  /// called afterwards with the same state.
+  /// Whether the newest state and the states of the last tenth of a second are finite and plausible. Afterwards,
+  /// `limit` may be called with the same state.
   bool trusts(const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
   /// Emergency stop: from now on the force fades to zero and stays there.
@@ -113,7 +113,7 @@ class SafetyEnvelope {
   const DeviceDescriptor& descriptor() const noexcept;
 
   /// The smallest age of a command in the last half second or longer. At the glove's end, it is the delay of the whole
-  /// round trip. 0 in the first half second, and for more than 150 ms, which count as silence.
+  /// round trip. It is 0 in the first half second, and if it is more than 150 ms, which counts as silence.
   std::chrono::nanoseconds link_delay() const noexcept;
 
  private:

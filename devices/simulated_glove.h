@@ -1,8 +1,8 @@
 #pragma once
 
-/// A simulated force-feedback glove: a hand on a grounded force-feedback arm, moved by a wearer. The wearer follows a
-/// script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has neither threads
-/// nor clocks: the same inputs give bit-identical outputs.
+/// A simulated force-feedback glove, i.e. a hand on a grounded force-feedback arm that a wearer moves. The wearer
+/// follows a script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has
+/// neither threads nor clocks: the same inputs give bit-identical outputs.
 
 #include <chrono>
 #include <cstdint>
@@ -54,8 +54,8 @@ struct SimulatedGloveParameters {
   hands::JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
   /// Joint angles of the open hand; none: the hand opens without moving its fingers.
   std::optional<hands::JointValues> open_posture{};
-  /// Joint angles over the time of the script. They replace both postures. Without entries, the grip chooses the
-  /// posture.
+  /// Joint angles over the time of the script. They replace the grasp posture and the open posture. Without entries,
+  /// the grip selects one of the two postures.
   std::vector<TimedAngles> fingers{};
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
   bool starts_closed = true;           ///< the hand is closed at the start of the script
@@ -71,9 +71,9 @@ DeviceDescriptor simulated_glove_descriptor();
 class SimulatedGlove {
  public:
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
-  /// std::invalid_argument, naming the parameter, for a number that is not finite, negative damping, and any other
-  /// parameter that is not positive, except angles of postures. Also throws if stiffness or damping is too large for
-  /// stable steps of 1 ms, and for times of the fingers that do not ascend.
+  /// std::invalid_argument, naming the parameter, in these cases: a number is not finite; a damping is negative;
+  /// another parameter, except angles of postures, is not positive; stiffness or damping is too large for stable steps
+  /// of 1 ms; or the times of the fingers do not ascend.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
@@ -83,8 +83,9 @@ class SimulatedGlove {
 
   /// Advances the simulation by `dt` under the command `newest`. Returns the new state, with a sequence higher by one
   /// and a time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command acts for three periods
-  /// of the device and fades in seven more, as in a device that guards itself against a late driver. (An envelope
-  /// counts it for 10 ms.) The wearer follows the script at `pace` times its speed, from 0 (the wearer waits) to 1.
+  /// of the device and fades in seven more periods, as in a device with a watchdog against a late driver. (An envelope
+  /// counts the command for 10 ms.) The wearer follows the script at `pace` times its speed, from 0 (the wearer waits)
+  /// to 1.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 
   /// The wearer's present time in the script.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A simulated glove on an LCM bus. Like a real glove, it publishes states and receives commands, in a thread of its
-/// own at 1 kHz.
+/// A simulated glove on an LCM bus. Like a real glove, it publishes states and receives commands at 1 kHz, in a
+/// separate thread.
 
 #include <atomic>
 #include <chrono>
@@ -26,8 +26,8 @@ class WearersView;
 /// server is slow, stops when the parts stand still, and waits for at most three seconds.
 class SimulatedGloveService {
  public:
-  /// Receives the new state and the command that led to it, in each period, in the thread of the service. Returns
-  /// whether the force may go on. After the first false, the force fades and stays at zero.
+  /// Receives the new state and the command that led to this state, in each period, in the thread of the service.
+  /// Returns whether the force may go on. After the first false, the force fades and stays at zero.
   using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
@@ -38,8 +38,8 @@ class SimulatedGloveService {
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
-  /// Lets the force fade and ends the thread after at most a tenth of a second. After the return, the results of the
-  /// functions below no longer change.
+  /// Lets the force fade and ends the thread within a tenth of a second. After the return, the results of the functions
+  /// below no longer change.
   void stop();
 
   /// The extra time that the wearer has needed for the script because answers were old. Any thread.

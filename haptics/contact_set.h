@@ -32,8 +32,8 @@ struct ContactRow : contact::CoupledRow {
   double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
   double approach = 0.0;  ///< m/s: `Contact::approach`; the bound grows at this rate with the age of the set
   bool pushes = false;    ///< the contact has a positive force
-  /// Friction on the part divided by the normal force, in world axes. It is perpendicular to the normal, and its norm
-  /// is at most the coefficient of friction. Zero for contacts that do not push.
+  /// Friction on the part divided by the normal force, in world axes. This vector is perpendicular to the normal, and
+  /// its norm is at most the coefficient of friction. It is zero for contacts that do not push.
   Eigen::Vector3d friction_ratio_W = Eigen::Vector3d::Zero();
 };
 
@@ -48,8 +48,8 @@ struct PartAnswer {
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();          ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
-  /// The target in the frame of the ghost. It differs from the identity if the hand holds the part at an offset, or if
-  /// the metaphor wants another pose than the ghost's.
+  /// The target in the frame of the ghost. The target differs from the identity if the hand holds the part at an
+  /// offset, or if the metaphor wants another pose than the ghost's.
   Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
   /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a smaller gap than `reach`. The set
   /// has a row for each contact found, except for the `dropped` contacts.
@@ -71,11 +71,12 @@ struct FingerRow {
 };
 
 /// Maximum number of rows of one hand in a contact set. On a finely tessellated object a hand may have more contacts.
-/// The set then has the contact that pushes each joint back the farthest, the deepest contact of each segment with each
-/// object, and the deepest of the other contacts. So no torque depends on omitted contacts.
+/// The set then has three kinds of contacts: for each joint, the contact that pushes it back the farthest; for each
+/// segment and object, the deepest contact; and the deepest of the other contacts. So no torque depends on omitted
+/// contacts.
 inline constexpr std::size_t kMaxFingerRows = 32;
 
-/// The simulation's answer for one hand with fingers: the visible hand, and the part that it is to hold.
+/// The simulation's answer for one hand with fingers: the visible hand, and the part that this hand is to hold.
 struct HandAnswer {
   hands::VisibleHand visible;
   std::int32_t part = -1;      ///< number of the part that the hand is to hold; −1: none
@@ -94,7 +95,8 @@ struct ContactSet {
   std::int32_t part_count = 1;
   std::array<PartAnswer, contact::kMaxParts> parts{};
   std::int32_t row_count = 0;  ///< rows in use
-  /// Part by part. The rows of a part begin with the pushing contacts; the others follow, the nearest first.
+  /// The rows are grouped by part. The rows of a part begin with the pushing contacts. The others follow, the nearest
+  /// first.
   std::array<ContactRow, contact::kMaxParts * kMaxContactRows> row_array{};
   std::array<HandAnswer, hands::kMaxHands> hands{};  ///< only hands with fingers
   // For display.
@@ -106,7 +108,7 @@ struct ContactSet {
 };
 
 /// One part as the haptic thread knows it, for the simulation to answer. The simulation only sees the newest poses. The
-/// two counts show it every grasp and release in between.
+/// counts `hold` and `release` show every grasp and release in between.
 struct GhostOfPart {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   bool is_held = false;

@@ -39,34 +39,34 @@ struct Coupling {
 /// The greatest stiffness with which a spring on the device is passive, i.e. never gives back more energy than the hand
 /// put in: b / (T/2 + t_d), with the device's damping b, the period T of the loop and the delay t_d from measurement to
 /// force. The stiffness against translation is also at most twice the Coulomb friction divided by the resolution. If
-/// the descriptor does not tell the damping, b is the smallest damping with which the maker's largest stiffness is
+/// the descriptor does not give the damping, b is the smallest damping with which the maker's largest stiffness is
 /// passive without a link. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott
 /// and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept;
 
-/// The coupling that a device can render without shaking. The loop has this period, or that of the device if it is
-/// longer. `delay` is the delay of the link, which adds to the device's own delay. The stiffness is `wanted`, but at
-/// most the descriptor's limits and `passive_stiffness`. The damping is 5 ms times this stiffness, but at most the
-/// descriptor's limit, and at most b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument,
-/// naming the device, when the device cannot render any stiffness against translation or rotation.
+/// The coupling that a device can render without shaking. The period T of the loop is `period`, or that of the device
+/// if this is longer. `delay` is the delay of the link, which adds to the device's own delay. The stiffness K is the
+/// least of `wanted`, the descriptor's limit and `passive_stiffness`. The damping is the least of 5 ms times K, the
+/// descriptor's limit, and b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument, naming the
+/// device, when the device cannot render any stiffness against translation or rotation.
 Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                       std::chrono::nanoseconds period = kTickPeriod,
                       std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
 
-/// The coupling of `coupling_for` without its check, for a part whose reference point is `lever` l (metres) from that
-/// of the device. The spring against translation then also turns the device, like a spring of K l² against rotation.
-/// The device's rotational damping must keep this spring passive, too; `max_rotational_stiffness` does not limit it.
-/// Real-time safe.
+/// Like `coupling_for`, but without the check, and for a part whose reference point has the distance `lever` l (metres)
+/// from that of the device. The spring against translation then also turns the device, like a spring of K l² against
+/// rotation. The device's rotational damping must keep this spring passive, too. `max_rotational_stiffness` does not
+/// limit this spring. Real-time safe.
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever = 0.0) noexcept;
 
 /// The damper's wrench on the hand, for the velocity v_W of the ghost's reference point (m/s) and the angular velocity
-/// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So it does not brake
-/// a translation perpendicular to the contact normals. The damper's force never exceeds the force of the contacts, and
-/// its torque never exceeds their torque. So the damper sets in smoothly at a new contact, and contacts and damper
-/// together never pull the hand towards a contact that the hand leaves.
+/// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So the damper does
+/// not brake a translation perpendicular to the contact normals. The damper's force never exceeds the force of the
+/// contacts, and its torque never exceeds their torque. So the damper sets in smoothly at a new contact, and contacts
+/// and damper together never pull the hand towards a contact that the hand leaves.
 contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
                               const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W);
 

@@ -20,8 +20,8 @@ struct HandModel;
 
 namespace glissade::haptics {
 
-/// A hinge between the hand root and the palm. Frames: P of the previous hinge or the root; J, which turns about
-/// `axis_J`.
+/// A hinge between the hand root and the palm. Frame P is that of the previous hinge or of the root. Frame J turns
+/// about `axis_J`.
 struct WristJoint {
   std::size_t angle = 0;  ///< number of the glove's joint
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
@@ -38,23 +38,23 @@ struct FingerHand {
 /// The `FingerHand` of a hand of the simulation.
 FingerHand finger_hand(const grasping::HandModel& hand);
 
-/// The stiffness (Nm/rad) of the spring at each joint of a glove. The spring reaches `max_joint_torque` 0.8 degrees
-/// deep, so that a finger which the wearer presses with less stops within this angle. The stiffness has three upper
+/// The stiffness (Nm/rad) of the spring at each joint of a glove. The spring reaches `max_joint_torque` at a depth of
+/// 0.8 degrees. So a finger that presses with a smaller torque stops within this angle. The stiffness has three upper
 /// bounds. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of the loop (at
-/// least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not tell
-/// its `joint_damping`, b is what the full stiffness needs without a link. The second is r / (6 rad/s), because a
-/// torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`) lags behind a quickly tapping finger and would
-/// feed its rattling. The third is twice the joint's Coulomb friction divided by the step of the measured angles,
-/// because nothing damps a finger within a step. Real-time safe.
+/// least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not report
+/// its `joint_damping`, b is the damping that the full stiffness needs without a link. The second is r / (6 rad/s),
+/// because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`) lags behind a quickly tapping finger
+/// and would make it rattle. The third is twice the joint's Coulomb friction divided by the step of the measured
+/// angles, because nothing damps a finger within a step. Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 
-/// Computes by least squares how far (rad) the joints whose lag closes the gap of a contact must go back to leave it,
-/// at most to the visible hand. Raises `depths` to these values. `lags` (rad) are from the visible hand to the glove.
-/// The torques of the depths of one contact are the gradient of a convex energy in the closing joints, and no stiffer
-/// than each joint alone: joints that share a contact do not add up. They are softer if an arm is shorter than 2 mm. If
-/// a joint has several contacts, the greatest depth counts, so n joints may be stiffer by (1 + √n) / 2. Real-time safe:
-/// O(joints²) at worst.
+/// `lags` (rad) are from the visible hand to the glove. If the lag of a joint closes the gap of a contact, this joint
+/// must go back, at most to the visible hand. Computes by least squares how far (rad) such joints must go back to leave
+/// the contact, and raises `depths` to these values. The torques of one contact are the gradient of a convex energy in
+/// the closing joints. These joints together are no stiffer than each joint alone, and softer if an arm is shorter than
+/// 2 mm. If a joint has several contacts, the greatest depth counts, so n joints may be stiffer by (1 + √n) / 2.
+/// Real-time safe: O(joints²) at worst.
 void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
 /// Computes the joint torques of a glove whose hand clasps an object. Springs push back each joint whose motion from
@@ -62,7 +62,7 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
 /// exactly zero torque.
 ///
 /// The torque is continuous in the posture of the glove. Contacts that push at an arm of less than 2 mm about a joint's
-/// axis count less, down to zero. A wearer's joint that presses with τ Nm, at most the largest torque, rests τ /
+/// axis count less, down to zero. If a wearer's joint presses with τ Nm, at most the largest torque, it rests τ /
 /// stiffness deeper than the visible hand.
 ///
 /// There is no damper, because gloves measure angles, often in coarse steps, and no rates. The stiffness allows for
@@ -71,8 +71,9 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
 /// Not thread-safe. Real-time safe: no allocation, no lock, no system call.
 class FingerForces {
  public:
-  /// Joints that the device does not have get no torque. Throws std::invalid_argument as `devices::validate` and
-  /// `validate_tick_period` do, and for limits of the hand that are not finite or whose lower one exceeds the upper.
+  /// Joints that the device does not have get no torque. Throws what `devices::validate` and `validate_tick_period`
+  /// throw. Also throws std::invalid_argument if a limit of the hand is not finite, or if a lower limit exceeds the
+  /// upper limit.
   FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                std::chrono::nanoseconds period = kTickPeriod);
 
@@ -84,9 +85,9 @@ class FingerForces {
   /// Nm, of the device.
   double max_torque() const noexcept { return device_.max_joint_torque; }
 
-  /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). They are full while the
-  /// answer is younger than kFullForce, and zero from kForceless on. They are zero for angles that are not finite.
-  /// Cost: O(rows · joints), 0.05 µs a row.
+  /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). The torques are full
+  /// while the answer is younger than kFullForce, and zero from the age kForceless on. They are also zero for angles
+  /// that are not finite. Cost: O(rows · joints), 0.05 µs a row.
   const hands::JointValues& update(const hands::JointValues& angles, const HandAnswer& hand,
                                    std::chrono::nanoseconds age = std::chrono::nanoseconds(0)) noexcept;
 
@@ -107,11 +108,11 @@ HandAnswer answer_of(const grasping::GraspSimulation& simulation, std::size_t ha
 inline constexpr std::size_t kFingers = 5;
 
 /// The forces of a hand's fingertips, for a wearer whose fingers are at their targets. The springs of the glove give
-/// the joint torques. The contact forces are the non-negative ones whose torques come nearest to these joint torques.
-/// They do not include the load of a held part. Not thread-safe.
+/// the joint torques. Of all non-negative contact forces, those count whose torques come nearest to these joint
+/// torques. The load of a held part is not included. Not thread-safe.
 class FingertipForces {
  public:
-  /// Throws as `FingerForces` does.
+  /// Throws what the constructor of `FingerForces` throws.
   FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}
 
   /// N: for each finger, the sum of the contact forces on its last segment. `targets` are the angles (rad) to which the

@@ -47,20 +47,20 @@ std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding);
 /// A hand in a device.
 struct KernelHand {
   devices::DeviceDescriptor device;
-  /// Number of the part that the hand takes at the first state of its glove, if the grip is closed in this state. None
-  /// for a hand with fingers.
+  /// Number of the part that the hand takes at the first state of its glove, if the grip is closed in this state. A
+  /// hand with fingers has none.
   std::optional<std::size_t> part{};
-  /// A hand with fingers holds the part on which the simulation decides (`HandAnswer::part`), and gets joint torques. A
-  /// hand without fingers holds by its grip.
+  /// If set, the hand has fingers: it gets joint torques, and holds the part that the simulation chooses
+  /// (`HandAnswer::part`). A hand without fingers holds by its grip.
   std::optional<FingerHand> fingers{};
 };
 
 /// A device of a loop, and the part that its hand takes. The first devices lead the simulation's hands with fingers.
 template <typename Device>
 struct HandInLoop {
-  /// `part` is for a hand without fingers: number of the part that the hand grasps at the first state, by default the
-  /// first part. Several hands may hold one part. None: the hand grasps a part later, by a call of `grasp` or by its
-  /// grip.
+  /// `part` is for a hand without fingers. It is the number of the part that the hand grasps at the first state, by
+  /// default the first part. Several hands may hold one part. If `part` is none, the hand grasps a part later, by a
+  /// call of `grasp` or by its grip.
   HandInLoop(Device* device_of_hand, std::optional<std::size_t> part_in_hand = 0)
       : device(device_of_hand), part(part_in_hand) {}
 
@@ -95,9 +95,10 @@ class HapticKernel {
   /// The coupling of a hand and a part is the result of `coupling_for` with the device, the part's stiffness and
   /// `period`, the usual time between two ticks. If the simulation is stiffer than the device allows, the contact
   /// forces that the simulation reports differ from the force on the hand. To avoid this, construct the simulation with
-  /// the stiffness that `coupling_for` returns. Throws as `coupling_for` does. Throws std::invalid_argument for no
-  /// hands, no parts, more than hands::kMaxHands or kMaxParts, a held part that is scripted or does not exist, a hand
-  /// with fingers that is given a part, limits of fingers that are no range, and invalid wrist joints.
+  /// the stiffness that `coupling_for` returns. Throws what `coupling_for` throws. Also throws std::invalid_argument in
+  /// these cases: no hands or more than hands::kMaxHands; no parts or more than kMaxParts; a held part that is scripted
+  /// or does not exist; a hand with fingers and a part; a lower limit of a finger above its upper limit; invalid wrist
+  /// joints.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();
@@ -106,7 +107,7 @@ class HapticKernel {
 
   /// The hand takes hold of the part in the next tick in which the hand has a finite pose, and lets go of any other
   /// part. Several hands may hold one part: each hand adds its spring, and feels the pull of the others. A hand that
-  /// holds the part already takes hold of it anew. Returns false and does nothing if `can_grasp` is false.
+  /// already holds the part takes hold of it anew. Returns false and does nothing if `can_grasp` is false.
   bool grasp(std::size_t hand, std::size_t part) noexcept;
   /// Whether the hand exists and has no fingers, and the part exists and can be held.
   bool can_grasp(std::size_t hand, std::size_t part) const noexcept;
@@ -114,12 +115,12 @@ class HapticKernel {
   /// holds nothing.
   void release(std::size_t hand) noexcept;
 
-  /// Computes the tick at time `now`. `states` has the newest state of each hand; the entry of a hand without a state
-  /// is null. `set` is the newest contact set. `now` is on the clock of `ContactSet::time`, and never goes back. A pose
-  /// that is not finite or not plausible leaves the ghost unchanged, and the force fades. An opening hand lets go. A
-  /// closing hand grasps the part whose bounding sphere about the compliance point is nearest to the hand root. The
-  /// kernel follows an opening or closing after three states in a row with the same `GloveState::grip`. A contact set
-  /// with a number that is not finite counts as a set without contacts, with the parts at their last poses. A hand with
+  /// Computes the tick at time `now`. `states` has the newest state of each hand. The entry of a hand without a state
+  /// is null. `set` is the newest contact set. `now` is a time on the clock of `ContactSet::time`, and never goes back.
+  /// If a pose is not finite or not plausible, the ghost stays unchanged, and the force fades. An opening hand lets go.
+  /// A closing hand grasps the part whose bounding sphere about the compliance point is nearest to the hand root. An
+  /// opening or closing takes effect after three states in a row with the same `GloveState::grip`. If a contact set has
+  /// a number that is not finite, it counts as a set without contacts, with the parts at their last poses. A hand with
   /// fingers follows the decisions of the set instead of its grip, and gets joint torques.
   HapticTick tick(std::span<const devices::GloveState* const> states, const ContactSet& set,
                   std::chrono::nanoseconds now) noexcept;
@@ -127,7 +128,7 @@ class HapticKernel {
   /// Emergency stop: the force of all hands fades to zero and stays there.
   void stop() noexcept;
 
-  /// The coupling without delay of the link. The hand and the part must exist.
+  /// The coupling if the link has no delay. The hand and the part must exist.
   const Coupling& coupling(std::size_t hand, std::size_t part) const;
   /// The coupling of the hand in the last tick, with the link delay from the glove (`GloveState::link_delay`) smoothed
   /// over 0.1 s.

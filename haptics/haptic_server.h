@@ -1,8 +1,8 @@
 #pragma once
 
-/// The system in real time, with two threads. The haptic thread runs at 1 kHz or another rate. It computes the forces
-/// and the poses of the ghosts (the parts' poses if nothing were in the way) from the states of all devices and the
-/// newest contact set. The simulation thread answers the newest poses of the ghosts with a contact set, once per
+/// Runs the system in real time, with two threads. The haptic thread runs at 1 kHz or another rate. It computes the
+/// forces and the poses of the ghosts (the parts' poses if nothing were in the way) from the states of all devices and
+/// the newest contact set. The simulation thread answers the newest poses of the ghosts with a contact set, once per
 /// millisecond if the collision queries are fast enough. Neither thread waits for the other.
 
 #include <array>
@@ -69,11 +69,11 @@ struct HapticServerStatistics {
 class HapticServer {
  public:
   /// Starts both threads. Devices and simulation must outlive the server. A hand grasps its part when the first state
-  /// of its device arrives; the part stays where it is. Parts that no hand grasps and no script moves lie still, and
-  /// are obstacles. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of
-  /// the simulation. The simulation should have `contact::real_time_rules`. Throws std::invalid_argument for a null
-  /// device, a period out of bounds and fewer devices than hands of the simulation, and as the constructors of
-  /// `HapticKernel` and `realtime::PeriodicThread` do.
+  /// of its device arrives; the part stays where it is. Parts lie still, and are obstacles, if no hand grasps them and
+  /// no script moves them. The coupling is the result of `coupling_for` with the descriptor of the device and the
+  /// stiffness of the simulation. The simulation should have `contact::real_time_rules`. Throws std::invalid_argument
+  /// if a device is null, if the period is out of bounds, or if there are fewer devices than hands in the simulation.
+  /// Also throws what the constructors of `HapticKernel` and `realtime::PeriodicThread` throw.
   HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands, grasping::GraspSimulation& simulation,
                HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;
@@ -81,8 +81,9 @@ class HapticServer {
   ~HapticServer();
 
   /// Calls `HapticKernel::grasp` or `HapticKernel::release` in the next tick. Returns false and does nothing if the
-  /// kernel refuses, or if 256 calls wait for the haptic thread; the caller may then try again. Wait-free. Only one
-  /// thread may call these functions. `release` does not affect hands with fingers, for which the simulation decides.
+  /// kernel refuses, or if 256 calls wait for the haptic thread. In the second case, the caller may try again.
+  /// Wait-free. Only one thread may call these functions. `release` does not affect hands with fingers, because the
+  /// simulation decides for these hands.
   bool grasp(std::size_t hand, std::size_t part) noexcept {
     return kernel_.can_grasp(hand, part) &&
            requests_.push({static_cast<std::int32_t>(hand), static_cast<std::int32_t>(part)});
@@ -112,8 +113,8 @@ class HapticServer {
   /// The scheduling that the system granted to the haptic thread. Any thread.
   const realtime::ThreadScheduling& scheduling() const noexcept { return haptic_thread_->scheduling(); }
 
-  /// Blocks for `longest`, or until the server is done or has failed. Then stops the server. Throws std::runtime_error
-  /// with the message of `failure` if it has failed.
+  /// Blocks for `longest`, or until the server is done or has failed. Then stops the server. If the server has failed,
+  /// throws std::runtime_error with the message of `failure`.
   void run_for(std::chrono::nanoseconds longest);
   /// As `run_for`, without a time limit. The server must have `HapticServerOptions::ticks`; a server with 0 ticks
   /// throws std::invalid_argument. Without states of any device, this function does not return.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The whole system on a simulated clock and in one thread: gloves, haptic kernel and simulation take turns, once per
-/// tick. The same inputs give bit-identical outputs. `Replay` repeats a recorded run bit by bit.
+/// Runs the whole system on a simulated clock and in one thread: gloves, haptic kernel and simulation take turns, once
+/// per tick. The same inputs give bit-identical outputs. `Replay` repeats a recorded run bit by bit.
 
 #include <chrono>
 #include <cstddef>
@@ -37,19 +37,19 @@ struct OfflineRunOptions {
 
 /// Runs `ticks` ticks and passes the state of each tick to `sink`. A tick uses the contact set that answers the ghost
 /// poses of the previous tick. Hands, parts and couplings are as in `HapticServer`. Throws std::invalid_argument for a
-/// null glove, an empty sink or a period out of the bounds of `validate_tick_period`, and as the constructor of
-/// `HapticKernel` does.
+/// null glove, an empty sink or a period out of the bounds of `validate_tick_period`. Also throws what the constructor
+/// of `HapticKernel` throws.
 void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, grasping::GraspSimulation& simulation,
                  std::int64_t ticks, const std::function<void(const devices::HapticState&)>& sink,
                  const OfflineRunOptions& options = {});
 
-/// Repeats a recorded run: ticks and answers consume the recorded inputs, and must produce the recorded bytes. The
+/// Repeats a recorded run. Ticks and answers consume the recorded inputs, and must produce the recorded bytes. The
 /// simulation needs only the recorded ghosts, so it works ahead of the ticks in a thread of its own. Not thread-safe.
 class Replay {
  public:
   /// Scene, rules, devices and parts of `hands`, period and `head` must be those of the recording. The fingers of
   /// `hands` must be those of the simulation. The simulation must outlive this object, and no one else may use it.
-  /// Throws as the constructor of `HapticKernel` does.
+  /// Throws what the constructor of `HapticKernel` throws.
   Replay(grasping::GraspSimulation& simulation, std::vector<KernelHand> hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();
@@ -58,19 +58,20 @@ class Replay {
 
   /// Takes the next event of the recording. Repeats the tick of a HAPTIC_TICK event and the answer of a CONTACT_SET
   /// event. Compares events on the other channels of a recording with the results of the last tick. Ignores all other
-  /// channels. Returns false if the run differs from the recording up to here: `difference` says why. Because the
+  /// channels. Returns false if the run differs from the recording up to here; `difference` then says why. Because the
   /// simulation computes the answers in another thread, `take` may return true for an event that differs. A later call
   /// of `take` or `settle` then returns false. Rethrows exceptions of the simulation.
   bool take(devices::LogEvent event);
 
-  /// Repeats all events taken so far. Returns false, as `take` does, if something differs.
+  /// Repeats all events taken so far. Returns false if something differs.
   bool settle();
 
-  /// Call it after the last event. Settles, and returns false as `take` does. Also returns false if the recording ends
-  /// within a tick or has no tick.
+  /// Call this function after the last event. Does what `settle` does. Also returns false if the recording ends within
+  /// a tick or has no tick.
   bool finish();
 
-  /// Numbers of ticks and answers repeated so far. After `settle`, all before the difference are repeated.
+  /// Numbers of ticks and answers repeated so far. After `settle`, all ticks and answers before the difference are
+  /// repeated.
   std::int64_t ticks() const noexcept { return ticks_; }
   std::int64_t answers() const noexcept { return answers_; }
   std::chrono::nanoseconds duration() const noexcept { return last_ - first_; }  ///< recorded time

@@ -38,8 +38,8 @@ class HoldRequests {
  public:
   static constexpr std::size_t kMost = 16;
 
-  /// As `HapticKernel::grasp` and `HapticKernel::release`. Return false and do nothing if there are already kMost
-  /// requests.
+  /// Like `HapticKernel::grasp` and `HapticKernel::release`. Both return false and do nothing if there are already
+  /// kMost requests.
   bool grasp(std::size_t hand, std::size_t part) noexcept {
     return add({static_cast<std::int32_t>(hand), static_cast<std::int32_t>(part)});
   }
@@ -86,7 +86,7 @@ struct AnswerRecord {
   ContactSet set;  ///< produced
 };
 
-/// Receives the records of a loop. One thread may call both functions, or each function has a thread of its own.
+/// Receives the records of a loop. One thread may call both functions, or two threads may call one function each.
 class LoopObserver {
  public:
   virtual ~LoopObserver() = default;
@@ -95,9 +95,9 @@ class LoopObserver {
   virtual void after_answer(const AnswerRecord& record) noexcept = 0;  ///< called before a tick can use the answer
 };
 
-/// Passes the records of a real-time loop to observers that may be slow, in a thread of its own. The haptic thread and
-/// the simulation thread only fill ring buffers, so both functions are real-time safe. An answer is passed on before
-/// the ticks that use it.
+/// Passes the records of a real-time loop to observers that may be slow. The observers run in a separate thread. The
+/// haptic thread and the simulation thread only fill ring buffers, so both functions are real-time safe. An answer is
+/// passed on before the ticks that use it.
 class BackgroundObserver final : public LoopObserver {
  public:
   /// The observers must outlive this object.
@@ -130,9 +130,9 @@ struct RecordingHead {
   std::vector<devices::LogEvent> events;   ///< events that the application adds
 };
 
-/// The events of a recording. HAPTIC_TICK and CONTACT_SET have all data that a replay needs. For other LCM programs
-/// there are HAPTIC_STATE, GLOVE_STATE for each new state, and GLOVE_INFO five times a second. There are no
-/// GLOVE_COMMAND events, so `lcm-logplayer` moves no glove. Events have the times of the loop's clock. Not thread-safe.
+/// The events of a recording. HAPTIC_TICK and CONTACT_SET have all data that a replay needs. Other LCM programs can use
+/// HAPTIC_STATE, GLOVE_STATE (for each new state) and GLOVE_INFO (five times a second). There are no GLOVE_COMMAND
+/// events, so `lcm-logplayer` moves no glove. The times of events are on the loop's clock. Not thread-safe.
 class RecordedEvents {
  public:
   explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
@@ -183,7 +183,7 @@ class FlightRecorder final : public LoopObserver {
   void after_tick(const TickRecord& record) noexcept override;
   void after_answer(const AnswerRecord& record) noexcept override;
 
-  /// Writes the kept events, the oldest first. Throws as `EventLogWriter` does.
+  /// Writes the kept events, the oldest first. Throws what `EventLogWriter` throws.
   void write(const std::string& path) const;
 
  private:
