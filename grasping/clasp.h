@@ -1,7 +1,8 @@
 #pragma once
 
-/// The clasp of a chain round objects (paper §4): the collision-free posture nearest to the posture that a glove asks
-/// for. The path from each posture to the next is also collision-free. The visible hand gets only these postures.
+/// The clasp of a chain round objects (paper §4). A clasp finds the collision-free posture nearest to the posture that
+/// a glove asks for. The path from each posture to the next is also collision-free. The visible hand has only such
+/// postures.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,7 +21,7 @@ namespace glissade::grasping {
 enum class ClaspState : std::uint8_t {
   kClasping,  ///< the posture is collision-free, and follows the target as far as objects allow
   /// The chain has not been free since the start, since a motion of the cart, or since an object was placed inside it.
-  /// The posture stays as it is, and gives no forces. The clasp begins once the target is free.
+  /// The posture stays the same, and there are no forces. The clasp begins once the target is free.
   kWaiting,
   kLost,  ///< after `lose_track`, until the next target: as `kWaiting`
 };
@@ -37,8 +38,8 @@ struct ClaspRules {
   /// closely.
   int most_steps = 8;
   /// Work after which a call takes no further step, in the unit of `contact::SlidingRules::work_budget`. The next call
-  /// goes on from there. A step is never divided. If there was no step, one flex value may still try to go on alone.
-  /// Positive; none: no limit.
+  /// continues after the last step. A step is never divided. If there was no step, one flex value may still try to move
+  /// alone. Positive; none: no limit.
   std::optional<std::int64_t> work_budget{};
 };
 
@@ -50,16 +51,16 @@ struct LinkContact {
 };
 
 /// Only surfaces stop a link, not the volume within them, because meshes may be open. So a chain wholly within a closed
-/// object counts as free and cannot leave the object. A chain with an object wholly within one of its links counts as
-/// free, too.
+/// object counts as free and cannot leave the object. A chain also counts as free if an object is wholly within one of
+/// its links.
 ///
 /// Deterministic. Not thread-safe.
 class Clasp {
  public:
   /// `fixed` are bodies that never move. `objects` stand still during a call, and may be placed elsewhere between
   /// calls. The links of the chain may touch each other. Throws std::invalid_argument for a null chain, for a chain
-  /// without meshes and for rules out of range, and as the constructor of `contact::CertifiedBodies` does. Cost:
-  /// building the trees of the links.
+  /// without meshes and for rules out of range. Also throws what the constructor of `contact::CertifiedBodies` throws.
+  /// Cost: building the trees of the links.
   Clasp(std::shared_ptr<const KinematicChain> chain, std::vector<contact::Obstacle> fixed,
         std::vector<std::shared_ptr<const contact::SlidingPart>> objects, const ClaspRules& rules = {});
   Clasp(Clasp&&) noexcept;
@@ -70,29 +71,29 @@ class Clasp {
   /// The links with meshes, in order.
   const std::vector<std::shared_ptr<const contact::SlidingPart>>& bodies() const;
 
-  /// Places an object. If the chain then is not free, the clasp waits.
+  /// Places an object. If the chain is then not free, the clasp waits.
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
 
-  /// Places an object that has touched nothing on its path, as the caller knows.
+  /// Places an object. The caller knows that the object has touched nothing on its path.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
   /// Places the chain, which moves with an object that it holds. The caller knows that the chain has touched nothing on
   /// its path. A placed root has no deeper target. So in the next call of `advance`, every link near an object touches
-  /// the object unless the link's target leads away.
+  /// this object unless the link's target leads away from it.
   void carry(const Posture& posture);
 
   /// Moves the chain towards the target. Flex values beyond their limits count as the limits. Ignores a target that is
   /// not finite: posture and contacts stay the same.
   void advance(const Posture& target);
 
-  /// Call it when the tracker has lost the hand. Nothing touches any more. The clasp begins anew at the next free
-  /// target, wherever it is. If the target is inside an object, the clasp begins at the old posture if this is still
-  /// free.
+  /// Call this function when the tracker has lost the hand. Nothing touches any more. The clasp begins anew at the next
+  /// free target, wherever this target is. If the target is inside an object, the clasp begins at the old posture,
+  /// provided that this posture is still free.
   void lose_track();
 
   /// Until the next call of `advance`, nothing touches, because the target is not known.
   void forget_contacts();
 
-  /// Moves the chain with the user's cart, through obstacles as well. The clasp waits until a target is free. Ignores a
+  /// Moves the chain with the user's cart, even through obstacles. The clasp waits until a target is free. Ignores a
   /// posture that is not finite.
   void move_cart(const Posture& target);
 
@@ -100,9 +101,9 @@ class Clasp {
   const Posture& posture() const;
   /// The last target, within the limits of the chain.
   const Posture& target() const;
-  /// Whether a link touches, by its number in the chain. The link itself must be at an object and have a deeper target;
-  /// contacts of links that hang on it do not count. Unlike in the paper, the order in which joints were stopped does
-  /// not matter.
+  /// For each link, by its number in the chain, whether the link touches. The link itself must be at an object and have
+  /// a deeper target. Contacts of links that hang on this link do not count. Unlike in the paper, the order in which
+  /// joints were stopped does not matter.
   std::span<const char> touching() const;
   /// The contacts of all links that touch.
   const std::vector<LinkContact>& contacts() const;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Classifies the grasp of a hand from its contacts, by the rules of the founding paper (§4). Also finds the grasps
-/// that the paper names without a rule. docs/grasps.md shows each grasp.
+/// Classifies the grasp of a hand from its contacts, by the rules of the founding paper (§4). Also recognizes the
+/// grasps that the paper names without a rule. docs/grasps.md shows each grasp.
 
 #include <array>
 #include <cstdint>
@@ -51,18 +51,18 @@ struct Grasp {
   GraspLack lack() const;
 };
 
-/// The grasp of a hand with fingers from the data of the haptic loop, without the object.
+/// The grasp of a hand with fingers, from the data of the haptic loop. The object is not set.
 Grasp grasp_of(const hands::VisibleHand& hand);
 
 /// A sentence without a full stop, such as "power: the palm and the middle segment of the index touch".
 std::string reason_of(const Grasp& grasp);
 
-/// Follows the grasp over time. So that sensor noise makes no grasp flicker, a segment counts as touching once it has
-/// touched in most of the last 40 ms, until it has hardly touched for 70 ms. No grasp lasts longer than 70 ms without
-/// contacts in `update`. For a hand that holds a part, `GraspSimulation` passes on contacts that noise may have
-/// removed. A segment may touch up to three bodies. The body with the firmest grasp counts, in the order power,
-/// precision, push. A grasp that holds a part, scripted or not, comes before any grasp of a fixed body. Real-time safe
-/// after construction. Not thread-safe.
+/// Follows the grasp over time. A delay keeps sensor noise from making a grasp flicker: a segment counts as touching
+/// once it has touched in most of the last 40 ms, and no longer counts once it has hardly touched for 70 ms. No grasp
+/// lasts longer than 70 ms without contacts in `update`. For a hand that holds a part, `GraspSimulation` passes on
+/// contacts that noise may have removed. A segment may touch up to three bodies. The body with the firmest grasp
+/// counts, in the order power, precision, push. A grasp that holds a part, scripted or not, takes precedence over any
+/// grasp of a fixed body. Real-time safe after construction. Not thread-safe.
 class GraspAnalysis {
  public:
   /// The first `fixed_bodies` bodies never move.
@@ -70,7 +70,7 @@ class GraspAnalysis {
       : meaning_(hand.meaning), first_part_(static_cast<std::int32_t>(fixed_bodies)) {}
 
   /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity. If `held` is not −1,
-  /// the hand holds the body with this number, and no other body counts.
+  /// the hand holds the body with the number `held`, and no other body counts.
   const Grasp& update(std::span<const LinkContact> contacts, double milliseconds,
                       const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
@@ -79,7 +79,7 @@ class GraspAnalysis {
   /// body.
   void forget(std::size_t link, std::int32_t object);
 
-  /// Forgets all contacts, as after a loss of tracking.
+  /// Forgets all contacts, for example after a loss of tracking.
   void clear();
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Hands that grasp, carry, push and release parts (paper §4). Combines the clasp and the grasp analysis of each hand
-/// with sliding contact for the held parts.
+/// Simulates hands that grasp, carry, push and release parts (paper §4). The simulation combines the clasp and the
+/// grasp analysis of each hand with sliding contact for the held parts.
 
 #include <cstddef>
 #include <cstdint>
@@ -34,15 +34,15 @@ struct GraspRules {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
-/// The target of a hand with fingers, and the part attached to its palm, if the caller decides on holds. The part
-/// follows a ghost of its own once the caller has called `GraspSimulation::take_part`.
+/// The target of a hand with fingers. If the caller decides on holds, also the part attached to the palm. Once the
+/// caller has called `GraspSimulation::take_part`, the part follows its own ghost.
 struct HandTarget {
   std::optional<Posture> posture{};   ///< tracked; none while the tracking is lost
   std::optional<std::size_t> part{};  ///< number of the part in the hand
 };
 
-/// The part that the simulation wants a hand to hold. The caller who decides on holds, such as a haptic thread, follows
-/// it.
+/// The part that the simulation wants a hand to hold. If the caller decides on holds, as a haptic thread does, the
+/// caller must follow this decision.
 struct HoldDecision {
   std::optional<std::size_t> part{};
   std::int64_t number = 0;  ///< increases whenever the simulation decides on another part
@@ -52,23 +52,24 @@ struct HoldDecision {
 ///
 /// A hand takes hold of a part when `GraspAnalysis` finds a grasp. From then on the palm and the part are one rigid
 /// body, which follows the tracked palm by sliding contact. The hand stays clasped round the visible part, wherever the
-/// tracked hand goes. Segments of the hand stop the part as its own faces do. The fingers still follow the glove. When
-/// they open, the hand lets go, and takes hold of the same part again after 0.2 s at the earliest. A part in two hands
-/// follows the mean of their targets. A hand that touches a loose part without a grasp pushes it. The part then moves,
-/// as far as obstacles allow, by the shortest displacement after which the hand's target lies at most 1 mm deep in it.
-/// Its speed is at most 1.5 times that of the fastest pushing segment (plus the gap of contacts, up to 20 µm a call).
+/// tracked hand goes. Obstacles stop the segments of the hand, and so the part, as they stop the faces of the part. The
+/// fingers still follow the glove. When the fingers open, the hand lets go. It takes hold of the same part again after
+/// 0.2 s at the earliest. A part in two hands follows the mean of their targets. A hand that touches a loose part
+/// without a grasp pushes it. The part then moves, as far as obstacles allow, by the shortest displacement after which
+/// the hand's target is at most 1 mm deep in the part. Its speed is at most 1.5 times that of the fastest pushing
+/// segment (plus the gap of contacts, up to 20 µm a call).
 ///
 /// Without hands, the caller leads the parts, and holds them from the start. The results are then bit-identical to
 /// those of `contact::MultiPartSliding`.
 ///
-/// With the second `advance`, the caller decides on holds and has the ghosts of held parts, as the haptic thread of a
-/// server does. A `decision` takes effect once the caller has followed it. The part's target is then relative to the
-/// tracked palm, not the visible one, so nothing moves when a hand takes hold.
+/// With the second `advance`, the caller decides on holds and supplies the ghosts of held parts, as the haptic thread
+/// of a server does. A `decision` takes effect once the caller has followed it. The part's target is then relative to
+/// the tracked palm, not to the visible palm, so nothing moves when a hand takes hold.
 class GraspSimulation {
  public:
   /// With hands, parts are loose at the start, unless scripts lead them. Scripted parts cannot be held. Throws
-  /// std::invalid_argument as `contact::MultiPartSliding` and `Clasp` do, for a null hand, for more than
-  /// `hands::kMaxHands` hands, and for an `up_W` that is no unit vector (to 1e-6).
+  /// std::invalid_argument for a null hand, for more than `hands::kMaxHands` hands, and for an `up_W` that is no unit
+  /// vector (to 1e-6). Also throws what `contact::MultiPartSliding` and `Clasp` throw.
   GraspSimulation(const std::vector<contact::Obstacle>& fixed, const std::vector<contact::HeldPart>& parts,
                   const std::vector<std::shared_ptr<const HandModel>>& hands = {}, const GraspRules& rules = {});
   GraspSimulation(GraspSimulation&&) noexcept;
@@ -79,21 +80,21 @@ class GraspSimulation {
   /// lost. `milliseconds` is the time since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
-  /// Advances the simulation if the caller decides on holds. Each part has a ghost pose X_WG, which counts from
-  /// `take_part` to `leave_part`, and each hand has a target. Hands push the other parts. A simulation must not mix
-  /// both `advance` functions.
+  /// Advances the simulation if the caller decides on holds. Each part has a ghost pose X_WG, which is used from
+  /// `take_part` to `leave_part`. Each hand has a target. Hands push parts that are not held. Do not call both
+  /// `advance` functions of one simulation.
   void advance(std::span<const Eigen::Isometry3d> X_WG, std::span<const HandTarget> targets, double milliseconds);
-  /// `take_part` begins a hold of the part, or begins it anew, with the ghost at X_WG; `leave_part` ends it. They work
-  /// as `contact::MultiPartSliding::grasp` and `contact::MultiPartSliding::release`. The compliance point is where the
-  /// holding hands touch the part, unless it was chosen.
+  /// `take_part` begins a hold of the part, or begins a hold anew, with the ghost at X_WG. `leave_part` ends the hold.
+  /// Both work like `contact::MultiPartSliding::grasp` and `contact::MultiPartSliding::release`. Unless the compliance
+  /// point was chosen, it is where the holding hands touch the part.
   void take_part(std::size_t part, const Eigen::Isometry3d& X_WG);
   void leave_part(std::size_t part);
   /// Whether the part is held. Without hands, parts are held from the start.
   bool is_led(std::size_t part) const;
 
-  /// The user's cart carries the hand to this posture, through obstacles as well. The hand lets go of its part, and
-  /// waits until a target is free. If `posture` is not finite or has a wrong number of values, the hand's posture stays
-  /// the same.
+  /// The user's cart carries the hand to this posture, even through obstacles. The hand lets go of its part, and waits
+  /// until a target is free. If `posture` is not finite or has a wrong number of values, the hand's posture stays the
+  /// same.
   void move_cart(std::size_t hand, const Posture& posture);
 
   std::size_t hand_count() const;
@@ -102,8 +103,8 @@ class GraspSimulation {
   // Of the hand with this number:
   const std::shared_ptr<const HandModel>& model(std::size_t hand) const;
   hands::HandActivity activity(std::size_t hand) const;
-  /// The visible hand. While the hand is free or holds a part, its posture and its path are collision-free. A hand that
-  /// waits, or is lost while it holds nothing, stays as it was, and is no obstacle.
+  /// The visible hand. While the hand is free or holds a part, its posture and its path are collision-free. A hand
+  /// keeps its posture, and is no obstacle, while it waits, or while it is lost and holds nothing.
   const Posture& posture(std::size_t hand) const;
   const Clasp& clasp(std::size_t hand) const;
   /// The contacts of the clasp, and contacts of segments that noise has moved away from the held part by millimetres.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Conversions of hand poses: from and to the 26 joints of OpenXR hand tracking, and from the 24 joints of recordings
-/// made with the Adroit hand, a simulated robot hand. Frames: W world, R root of the hand (`HandModel`).
+/// Converts hand poses from and to the 26 joints of OpenXR hand tracking. Also converts poses from the 24 joints of
+/// recordings made with the Adroit hand, a simulated robot hand. Frames: W world, R root of the hand (`HandModel`).
 
 #include <array>
 #include <cstddef>
@@ -66,9 +66,9 @@ OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
 /// The pose of `hand` that is nearest to tracked joints. Uses the rotations of the joints and the position of the
 /// wrist, so the bone lengths of the tracked hand do not matter. Each flex value is the least-squares angle of its
 /// joint. For the thumb's metacarpal, the direction of the bone counts four times as much as the direction of the nail.
-/// The poses must be rigid, so pass only joints that the runtime reports as tracked.
+/// The poses of the joints must be rigid, so pass only joints that the runtime reports as tracked.
 ///
-/// OpenXR has no forearm, so both wrist angles are 0, and R is the frame of the palm. Values may lie beyond the limits
+/// OpenXR has no forearm. So both wrist angles are 0, and R is the frame of the palm. Values may lie beyond the limits
 /// (`KinematicChain::clamp`). The function is the inverse of `to_openxr` up to rounding if the wrist angles are 0.
 /// Real-time safe; about 3 µs.
 HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept;
@@ -81,12 +81,13 @@ inline constexpr std::array<std::string_view, kAdroitJoints> kAdroitJointNames{
     "RFJ1", "RFJ0", "LFJ4", "LFJ3", "LFJ2", "LFJ1", "LFJ0", "THJ4", "THJ3", "THJ2", "THJ1", "THJ0"};
 
 /// The pose of a right hand for joint angles of the Adroit hand, in rad. Frame Adroit is the wrist frame of the Adroit
-/// hand. Its z axis points to the fingers, its x axis to the thumb's side, and its y axis out of the back of the hand.
+/// hand. The z axis of this frame points to the fingers, the x axis to the thumb's side, and the y axis out of the back
+/// of the hand.
 ///
-/// The two hands differ in structure. The angles of the wrist, of MCP, PIP and DIP joints, and between fingers stay the
-/// same. `palm_arch` lowers the knuckle of the little finger as far as LFJ4 does. The thumb's metacarpal has the
-/// recorded direction. The thumb's MCP and IP joints get −THJ1 and −THJ0. THJ2, a sideways motion of the thumb's MCP
-/// joint, has no counterpart. Values may lie beyond the limits.
+/// The Adroit hand and this hand differ in structure. Three kinds of angles stay the same: those of the wrist; those of
+/// MCP, PIP and DIP joints; and those between fingers. `palm_arch` lowers the knuckle of the little finger as far as
+/// LFJ4 does. The thumb's metacarpal has the recorded direction. The thumb's MCP and IP joints get −THJ1 and −THJ0.
+/// THJ2, a sideways motion of the thumb's MCP joint, has no counterpart. Values may lie beyond the limits.
 ///
 /// Throws std::invalid_argument for a left hand.
 HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,

@@ -14,8 +14,9 @@
 
 namespace glissade::grasping {
 
-/// The size and side of a hand. The length is from the crease of the wrist to the tip of the middle finger, the breadth
-/// across the knuckles. The defaults are a typical man's hand; 0.166 m and 0.075 m are a typical woman's.
+/// The size and side of a hand. The length is measured from the crease of the wrist to the tip of the middle finger,
+/// the breadth across the knuckles. The defaults are those of a typical man's hand. A typical woman's hand has 0.166 m
+/// and 0.075 m.
 struct HandShape {
   double length_m = 0.183;
   double breadth_m = 0.084;
@@ -47,7 +48,7 @@ class TouchingSegments {
   bool has_palm() const { return has({Finger::kNone, HandSegment::kPalm}); }
   int count() const;
   bool is_empty() const { return bits_ == 0; }
-  /// As `hands::VisibleHand::touching`.
+  /// The bits of `hands::VisibleHand::touching`.
   std::int32_t bits() const { return static_cast<std::int32_t>(bits_); }
   static TouchingSegments from_bits(std::int32_t bits);
   /// The segment of each bit, the lowest first; `HandSegment::kNone` where no segment has the bit.
@@ -69,20 +70,21 @@ std::string words_of(const SegmentMeaning& segment);
 /// Every hand has the same links in the same order.
 inline constexpr std::size_t kHandLinks = 25;
 
-/// The root R is the end of the forearm at the wrist, where a tracker sits. It has no mesh. The two joints of the wrist
-/// connect the palm to it. With both wrist angles 0, the palm's frame is R. The x axis of R points along the forearm
-/// towards the middle finger, its z axis out of the back of the hand. So y points to the thumb's side of a right hand,
-/// and away from the thumb of a left hand. A left hand is the mirror image of a right hand at y = 0.
+/// The root R is the end of the forearm at the wrist, where a tracker is worn. R has no mesh. The two joints of the
+/// wrist connect the palm to R. With both wrist angles 0, the palm's frame is R. The x axis of R points along the
+/// forearm towards the middle finger. The z axis points out of the back of the hand. So the y axis points to the
+/// thumb's side of a right hand, and away from the thumb of a left hand. A left hand is the mirror image of a right
+/// hand at y = 0.
 ///
 /// In the frame L of each segment, the origin is the joint nearer to the wrist. The x axis points along the bone to the
 /// next joint or to the tip, and the z axis out of the back (on the outer segments, out of the nail). Flexion is a
 /// rotation about y.
 ///
-/// The values have the order of `hands::kJointNames`. Positive flexions close the hand. Positive values of `thumb_roll`
-/// bring the thumb in front of the palm, abductions spread neighboring fingers, `palm_arch` brings ring and little
-/// finger towards the thumb, and `wrist_abduction` turns the hand towards the thumb. With all values 0 the fingers are
-/// straight and parallel. Abductions are relative: the abduction of the ring finger also turns the little finger. The
-/// middle finger does not abduct.
+/// The values have the order of `hands::kJointNames`. Positive flexions close the hand. Positive abductions spread
+/// neighboring fingers. Positive values of `thumb_roll` bring the thumb in front of the palm. Positive values of
+/// `palm_arch` bring ring and little finger towards the thumb. Positive values of `wrist_abduction` turn the hand
+/// towards the thumb. With all values 0 the fingers are straight and parallel. Abductions are relative, so the
+/// abduction of the ring finger also turns the little finger. The middle finger does not abduct.
 struct HandModel {
   HandShape shape;
   KinematicChain chain;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// A tree of rigid segments joined by hinges, such as a hand, a gripper or an arm. It computes the poses of the
-/// segments for given joint angles, and finds which segments an angle moves and how far at most.
+/// A tree of rigid segments joined by hinges, such as a hand, a gripper or an arm. The chain computes the poses of the
+/// segments for given joint angles. It also finds which segments an angle moves, and how far at most.
 
 #include <cstddef>
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace glissade::grasping {
 
-/// A flex value of the founding paper (§4): a number in radians that sets joint angles, with its limits.
+/// A flex value of the founding paper (§4), i.e. a number in radians that sets joint angles. It has limits.
 struct FlexValue {
   std::string name;
   double lower = 0.0;
@@ -32,7 +32,7 @@ struct JointTerm {
 
 /// A segment, and the joint that connects it to its parent. Frames: P parent link, J joint, L link. At angle 0, L = J.
 /// A positive angle turns L about `axis_J` by the right-hand rule. A joint with two degrees of freedom consists of two
-/// links at the same place, the first of them without a mesh.
+/// links at the same place. The first of these links has no mesh.
 struct ChainLink {
   std::string name;
   std::optional<std::size_t> parent;  ///< a link with a lower number; none for the root, link 0, whose frame is R
@@ -43,7 +43,7 @@ struct ChainLink {
   std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: the link has no surface
 };
 
-/// The posture of a chain: the pose of its root and its flex values, the paper's (M, F).
+/// The posture of a chain, i.e. the pose of its root and its flex values; (M, F) in the paper.
 struct Posture {
   Eigen::Isometry3d X_WR = Eigen::Isometry3d::Identity();
   std::vector<double> values;  ///< rad, one for each flex value
@@ -53,10 +53,10 @@ struct Posture {
 /// neither allocate nor wait.
 class KinematicChain {
  public:
-  /// Throws std::invalid_argument, naming the link or the flex value, in these cases: no links; a name that is empty or
-  /// occurs twice; a number that is not finite; a lower limit above the upper limit; a parent that does not come before
-  /// its child; a root with a joint; an X_PJ that is no rigid pose; an axis not of unit length (to 1e-6); a term with a
-  /// value that does not exist; a mesh without vertices. Cost O(links · (links + values) + vertices).
+  /// Throws std::invalid_argument, naming the link or the flex value, in these cases: there are no links; a name is
+  /// empty or occurs twice; a number is not finite; a lower limit exceeds the upper limit; a parent does not come
+  /// before its child; the root has a joint; an X_PJ is no rigid pose; an axis is not of unit length (to 1e-6); a term
+  /// has a value that does not exist; or a mesh has no vertices. Cost O(links · (links + values) + vertices).
   KinematicChain(std::vector<FlexValue> values, std::vector<ChainLink> links);
 
   std::span<const FlexValue> values() const& noexcept { return values_; }
@@ -64,15 +64,16 @@ class KinematicChain {
   std::span<const FlexValue> values() const&& = delete;  // of a chain that ends with the expression
   std::span<const ChainLink> links() const&& = delete;
 
-  /// Computes the poses X_WL of all links, for the root at X_WR and flex values in rad, also beyond the limits.
-  /// `values` must have one entry for each flex value, `X_WL` one for each link. Cost O(links), about 50 ns a link that
-  /// moves.
+  /// Computes the poses X_WL of all links, for the root at X_WR and flex values in rad. Values may lie beyond the
+  /// limits. `values` must have one entry for each flex value, and `X_WL` one entry for each link. Cost O(links), about
+  /// 50 ns a link that moves.
   void poses(const Eigen::Isometry3d& X_WR, std::span<const double> values,
              std::span<Eigen::Isometry3d> X_WL) const noexcept;
 
-  /// Adds one row of the Jacobian to `rates`: the motion (m/rad) of the point `p_W` of `link` along the unit vector
-  /// `n_W` for each flex value, with the links at X_WL and the root at rest. `rates` has an entry for each flex value.
-  /// Entries of values that do not move the link stay the same. Cost O(joints between the root and the link).
+  /// Adds one row of the Jacobian to `rates`, with the links at X_WL and the root at rest. The row has, for each flex
+  /// value, the motion (m/rad) of the point `p_W` of `link` along the unit vector `n_W`. `rates` has an entry for each
+  /// flex value. Entries of values that do not move the link stay the same. Cost O(joints between the root and the
+  /// link).
   void add_rates(std::size_t link, const Eigen::Vector3d& p_W, const Eigen::Vector3d& n_W,
                  std::span<const Eigen::Isometry3d> X_WL, std::span<double> rates) const noexcept;
 
@@ -83,8 +84,8 @@ class KinematicChain {
   bool hangs_on(std::size_t descendant, std::size_t link) const noexcept;
 
   /// An upper bound, for any flex values, of the distance (m) of the mesh points of `link` from the origin of the frame
-  /// of the link `joint`. `hangs_on(link, joint)` must hold. So, if this joint turns by an angle a, no point of `link`
-  /// moves farther than 2 sin(a/2) · reach. 0 for a link without a mesh. O(1).
+  /// of the link `joint`. If this joint turns by an angle a, no point of `link` moves farther than 2 sin(a/2) · reach.
+  /// The bound is 0 for a link without a mesh. `hangs_on(link, joint)` must hold. O(1).
   double reach(std::size_t link, std::size_t joint) const noexcept;
 
   /// Moves each value that is beyond a limit to this limit.

@@ -10,8 +10,8 @@
 
 namespace glissade::grasping {
 
-/// A chain, and warnings about skipped or missing content of its mesh files. Each sentence of `ImportedMesh::warnings`
-/// occurs once, after the name of the file.
+/// A chain, and warnings about skipped or missing content of its mesh files. Each warning is a sentence of
+/// `ImportedMesh::warnings` after the name of the file, and occurs once.
 struct UrdfChain {
   KinematicChain chain;
   std::vector<std::string> warnings;
@@ -25,16 +25,16 @@ struct UrdfChain {
 /// - `<mimic>`: the joint turns with the value of the joint that it mimics, directly or through other mimics. Limits of
 ///   a joint with `<mimic>` are not used.
 /// - Meshes: the collision geometry of a link, as one mesh. Boxes, cylinders and spheres become triangles. Mesh files
-///   are read by `geometry::import_mesh`, with `scale`; their paths are absolute, relative to the folder of the URDF
+///   are read by `geometry::import_mesh`, with `scale`. Their paths are absolute, relative to the folder of the URDF
 ///   file, `file://`, or `package://NAME/PATH`. The folder of a package is the nearest folder NAME that contains the
-///   URDF file, or whose parent folder contains it.
+///   URDF file, or whose parent folder contains this file.
 ///
 /// Visual geometry, masses, dynamics and transmissions are ignored.
 ///
-/// Throws std::invalid_argument, naming the file and the link or joint, for a file that is missing or not well formed;
-/// for prismatic, floating and planar joints; for links that do not form one tree; for invalid limits, axes, sizes and
-/// scales; for mimics of missing or fixed joints and circular mimics; for mesh files that cannot be found or imported.
-/// May block on the disk.
+/// Throws std::invalid_argument, naming the file and the link or joint, in these cases: the file is missing or not well
+/// formed; a joint is prismatic, floating or planar; the links do not form one tree; a limit, axis, size or scale is
+/// invalid; a joint mimics a missing or fixed joint, or mimics form a circle; or a mesh file cannot be found or
+/// imported. May block on the disk.
 UrdfChain read_urdf(const std::filesystem::path& path);
 
 }  // namespace glissade::grasping

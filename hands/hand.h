@@ -1,7 +1,7 @@
 #pragma once
 
-/// Names and numbers for gloves, the simulation and messages: the joints of a human hand, its side, its activity and
-/// its grasp.
+/// Names and numbers for the joints of a human hand, its side, its activity and its grasp. Gloves, the simulation and
+/// messages use them.
 
 #include <array>
 #include <cstddef>
@@ -50,8 +50,9 @@ struct JointRange {
 };
 
 /// Ranges of the joints of a human hand, in the order of `kJointNames`. At the lower limit of its roll, the thumb lies
-/// in the plane of the palm. The ranges of the abductions keep every finger within its range relative to the palm, in
-/// degrees towards the thumb: index −15..30, ring −20..15, little −40..20.
+/// in the plane of the palm. The ranges of the abductions also limit the angle of each finger to the palm. In degrees
+/// towards the thumb, these limits are −15..30 for the index, −20..15 for the ring finger, and −40..20 for the little
+/// finger.
 inline constexpr std::array<JointRange, kJoints> kJointRanges{{{-20, 60}, {-10, 60}, {-15, 80}, {0, 60},
                                                                {-20, 90}, {0, 105},  {-10, 90},  // index
                                                                {-20, 90}, {0, 105},  {-10, 90},  // middle
@@ -84,8 +85,8 @@ constexpr bool is_present(HandActivity activity) noexcept {
 /// Number of activities; their values run from 0 to kHandActivities − 1.
 inline constexpr std::int32_t kHandActivities = 5;
 
-/// The type of a grasp, from the touching segments (paper §4). The thumb's segments count as finger segments, too.
-/// Messages carry the number of the type.
+/// The type of a grasp, which follows from the touching segments (paper §4). The thumb's segments count as finger
+/// segments, too. Messages carry the number of the type.
 enum class GraspType : std::int32_t {
   kNone = 0,       ///< nothing touches
   kPush = 1,       ///< a segment or the palm alone; fingers without the thumb; or only palm and inner segments
@@ -115,8 +116,8 @@ struct VisibleHand {
   HandActivity activity = HandActivity::kNone;
   GraspType grasp = GraspType::kNone;
   GraspForm form = GraspForm::kNone;
-  /// The segments that touch the grasped object: the sum of 2^(4 f + s) over these segments. f is 0 for the palm and 1
-  /// to 5 for thumb to little finger. s is 0 for the palm and 1 to 3 for a finger's inner, middle and outer segment.
+  /// The segments that touch the grasped object, as the sum of 2^(4 f + s) over these segments. f is 0 for the palm and
+  /// 1 to 5 for thumb to little finger. s is 0 for the palm and 1 to 3 for a finger's inner, middle and outer segment.
   std::int32_t touching = 0;
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   JointValues angles{};  ///< rad

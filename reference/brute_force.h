@@ -1,11 +1,11 @@
 #pragma once
 
-/// Intersection of two meshes by brute force: every triangle of one mesh against every triangle of the other. It is a
-/// reference for comparison with faster queries. Use `dop_query.h` for all other purposes.
+/// Tests two meshes for intersection by brute force, i.e. every triangle of one mesh against every triangle of the
+/// other. The result is a reference for comparison with faster queries. Use `dop_query.h` for all other purposes.
 ///
-/// The exact predicate of `triangle_pair.h` decides each pair whose axis-aligned bounding boxes overlap. The
-/// coordinates are the same as in `dop_query.h`: the vertices of A, and the vertices of B transformed by X_AB in double
-/// precision. Triangles of zero area are ignored. Touching counts as intersection. Cost O(n·m).
+/// The exact predicate of `triangle_pair.h` decides each pair whose axis-aligned bounding boxes overlap. As in
+/// `dop_query.h`, the coordinates are those of the vertices of A, and of the vertices of B transformed by X_AB in
+/// double precision. Triangles of zero area are ignored. Touching counts as intersection. Cost O(n·m).
 
 #include <vector>
 

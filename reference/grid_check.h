@@ -1,12 +1,12 @@
 #pragma once
 
-/// An independent check, after a run, that poses of a part are collision-free with static obstacles.
+/// Checks independently, after a run, that poses of a part are collision-free with static obstacles.
 ///
-/// It shares no code with the DOP-tree or the exact predicates. The obstacles' triangles are binned into a uniform
-/// grid. Every triangle of the part is compared with every obstacle triangle in the same cells, by a separating-axis
-/// test in double precision. A pair counts as free only if some axis certainly separates it. So intersection, touching,
-/// and a gap below about 1e-14 of the triangles' extent are all collisions. Triangles whose area is zero in double
-/// precision are ignored.
+/// The check shares no code with the DOP-tree or the exact predicates. The obstacles' triangles are binned into a
+/// uniform grid. Every triangle of the part is compared with every obstacle triangle in the same cells, by a
+/// separating-axis test in double precision. A pair counts as free only if some axis certainly separates it. So
+/// intersection, touching, and a gap below about 1e-14 of the triangles' extent are all collisions. Triangles whose
+/// area is zero in double precision are ignored.
 
 #include <cstddef>
 #include <cstdint>
@@ -30,7 +30,7 @@ struct PlacedMesh {
 /// The obstacles in their grid. Immutable, so any number of threads may query it at once.
 class GridCheck {
  public:
-  /// Receives the number of poses checked so far. The worker threads call it, one call at a time.
+  /// A function that receives the number of poses checked so far. The worker threads call it, one call at a time.
   using Progress = std::function<void(std::size_t)>;
 
   /// Cost O(triangles + cells they cover); at most 2^24 cells. Throws std::invalid_argument for a null mesh or a
@@ -41,8 +41,8 @@ class GridCheck {
   /// std::invalid_argument when a vertex in the world is not finite.
   bool collides(const geometry::TriangleMesh& part_V, const Eigen::Isometry3d& X_WV) const;
 
-  /// Checks many poses in parallel on all processors. The result has one entry per pose: 1 if the part collides there,
-  /// else 0.
+  /// Checks many poses in parallel on all processors. The result has one entry per pose, which is 1 if the part
+  /// collides there, else 0.
   std::vector<char> collisions(const geometry::TriangleMesh& part_V, std::span<const Eigen::Isometry3d> poses_WV,
                                const Progress& progress = {}) const;
 

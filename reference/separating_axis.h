@@ -1,7 +1,7 @@
 #pragma once
 
-/// A triangle-triangle test in plain double arithmetic for `grid_check.h`. It shares no code with the exact predicates,
-/// so that a comparison of both reveals mistakes.
+/// A triangle-triangle test in plain double arithmetic for `grid_check.h`. The test shares no code with the exact
+/// predicates, so that a comparison of the two reveals mistakes.
 
 #include <Eigen/Core>
 
@@ -15,8 +15,8 @@ struct CheckTriangle {
 };
 
 /// Whether some axis certainly separates the two triangles. The axes are the normals, the cross products of edges and,
-/// for coplanar triangles, the cross products of edges with normals. False if the gap is within rounding errors (about
-/// 1e-14 of the triangles' extent). So a caller that treats "not separated" as a collision misses no collision.
+/// for coplanar triangles, the cross products of edges with normals. Returns false if the gap is within rounding errors
+/// (about 1e-14 of the triangles' extent). So a caller that treats false as a collision misses no collision.
 bool separated(const CheckTriangle& a, const CheckTriangle& b);
 
 }  // namespace glissade::reference

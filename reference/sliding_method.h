@@ -1,7 +1,7 @@
 #pragma once
 
-/// One interface for two methods of sliding contact, for comparison: the method of `contact::Sliding`, and the method
-/// of the founding paper, *Natural Interaction in Virtual Environments*, §3.
+/// One interface for a comparison of two methods of sliding contact. The methods are that of `contact::Sliding` and
+/// that of the founding paper, *Natural Interaction in Virtual Environments*, §3.
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace glissade::reference {
 
-/// The simulation of one part in the hand. Its functions are those of `contact::Sliding`. Not thread-safe.
+/// The simulation of one part in the hand. The functions are those of `contact::Sliding`. Not thread-safe.
 class SlidingSimulation {
  public:
   SlidingSimulation() = default;
@@ -27,8 +27,8 @@ class SlidingSimulation {
   SlidingSimulation& operator=(const SlidingSimulation&) = delete;
   virtual ~SlidingSimulation() = default;
 
-  /// With the paper's method and force feedback, the hand feels the full spring force of an offset between hand and
-  /// part.
+  /// With the paper's method and force feedback, an offset between hand and part exerts the full spring force on the
+  /// hand.
   virtual void grasp(const Eigen::Isometry3d& X_WG) = 0;
   virtual void release() = 0;
   virtual const contact::SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) = 0;
@@ -67,9 +67,9 @@ inline std::string_view name_of(SlidingMethod method) {
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
 /// The simulation of one part by either method. For `kProjection`, throws as the constructor of `Sliding` does.
-/// `kPaper` uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles. It
-/// throws std::invalid_argument for scripted parts, no obstacle, null pointers, poses that `geometry::rigid_pose`
-/// rejects, and a part that collides with an obstacle at its start.
+/// `kPaper` uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles.
+/// `kPaper` throws std::invalid_argument in these cases: a part is scripted; there is no obstacle; a pointer is null;
+/// `geometry::rigid_pose` rejects a pose; or the part collides with an obstacle at the start.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<contact::Obstacle> obstacles,
                                                 std::shared_ptr<const contact::SlidingPart> part_V,
                                                 const Eigen::Isometry3d& X_WV_start,

@@ -1,12 +1,12 @@
 #pragma once
 
-/// The assembly of the demonstration. The path of the window motor leads through the access hole of a car door's inner
-/// panel, past the side-impact tube, to the motor's seat on the back of the inner panel.
+/// The parts of the demonstration's assembly. The path of the window motor leads through the access hole of a car
+/// door's inner panel, past the side-impact tube, to the motor's seat on the back of the inner panel.
 ///
 /// All parts except the motor are given in the world frame W: x forward along the car, y outwards from the cabin (the
 /// hand is at y < 0), z up. The motor is given in its own frame V. The origin of V is near the motor's centre, and its
 /// axes are parallel to those of W when the motor is seated. `detail` scales the number of triangles, not the
-/// dimensions: 1 gives about 50,000 triangles for the motor and 50,000 for the four door parts together. Each function
+/// dimensions. With 1, the motor has about 50,000 triangles, and so have the four door parts together. Each function
 /// throws std::invalid_argument when `detail` is not within 0.001 ... 100. Sheet metal is open and has no thickness.
 
 #include <Eigen/Geometry>
@@ -20,14 +20,14 @@ namespace glissade::shapes {
 inline constexpr double kInnerPanelWidth = 0.9;
 inline constexpr double kInnerPanelHeight = 0.6;
 
-/// Access hole of the inner panel, in metres: size and centre along x and z, and corner radius.
+/// Access hole of the inner panel, with size and centre along x and z, and corner radius, in metres.
 inline constexpr double kAccessHoleWidth = 0.22;
 inline constexpr double kAccessHoleHeight = 0.15;
 inline constexpr double kAccessHoleX = 0.0;
 inline constexpr double kAccessHoleZ = -0.14;
 inline constexpr double kAccessHoleCornerRadius = 0.025;
 
-/// Side-impact tube: parallel to x through (kImpactTubeY, kImpactTubeZ) in y and z, 32 mm in diameter.
+/// The side-impact tube is parallel to x through (kImpactTubeY, kImpactTubeZ) in y and z, and 32 mm in diameter.
 inline constexpr double kImpactTubeY = 0.105;
 inline constexpr double kImpactTubeZ = 0.0;
 inline constexpr double kImpactTubeRadius = 0.016;
@@ -45,7 +45,7 @@ inline constexpr double kMotorHalfHeight = 0.055;
 /// The motor's drum is around the line x = 0.04, z = -0.005 of V. Only the drum reaches beyond y = 0.02 of V.
 inline constexpr double kDrumRadius = 0.026;
 
-/// Start pose of the motor: in the cabin in front of the access hole, clear of everything.
+/// Start pose of the motor, which is in the cabin in front of the access hole, clear of everything.
 Eigen::Isometry3d start_pose_WV();
 
 /// Seat pose of the motor. The bracket lies flush on the back of the inner panel, and its upper edge meets the foot of
@@ -65,7 +65,7 @@ geometry::TriangleMesh make_door_impact_tube(double detail);
 /// A hose of 20 mm diameter that winds from the lower rear past the outer side of the impact tube to the upper front.
 geometry::TriangleMesh make_door_hose(double detail);
 
-/// The window motor in its frame V: one mesh of a motor can, a gearbox with ribs, a cable drum, a connector and a
+/// The window motor in its frame V, as one mesh of a motor can, a gearbox with ribs, a cable drum, a connector and a
 /// sheet-metal bracket. Some of these components overlap.
 geometry::TriangleMesh make_window_motor(double detail);
 

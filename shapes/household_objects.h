@@ -1,7 +1,7 @@
 #pragma once
 
-/// Household objects for tests and pictures of grasping: tools, tableware and small objects of real size, with rounded
-/// edges.
+/// Household objects for tests and pictures of grasping. They are tools, tableware and small objects of real size, with
+/// rounded edges.
 
 #include <string>
 #include <vector>
@@ -11,10 +11,10 @@
 namespace glissade::shapes {
 
 /// A kind of object. `make` returns its mesh in metres. `edge` (metres) is the longest edge of cells on round surfaces;
-/// flat faces have larger triangles. The shape hardly depends on `edge`. Every object consists of closed components
-/// with triangles that face outward. Joined components, such as a mug and its handle, may overlap. Only the sheet of
-/// paper is an open sheet without thickness. `make` throws std::invalid_argument for an edge outside 0.5 ... 20 mm. The
-/// cost is linear in the number of triangles.
+/// flat faces have larger triangles. The shape hardly depends on `edge`. Every object except the sheet of paper
+/// consists of closed components with triangles that face outward. Joined components, such as a mug and its handle, may
+/// overlap. The sheet of paper is an open sheet without thickness. `make` throws std::invalid_argument for an edge
+/// outside 0.5 ... 20 mm. The cost is linear in the number of triangles.
 struct HouseholdObject {
   std::string name;
   std::string description;

@@ -4,15 +4,15 @@
 /// of a tessellation.
 ///
 /// Radii are those of the inscribed circle, which touches all facets. Corners lie farther out by the factor 1 / cos(π /
-/// segments). If peg and hole have equally many segments and are coaxial and not turned, their facets are parallel, and
-/// their gap is exactly the difference of the radii. If the peg is turned by half a facet, its corners face the facets
-/// of the hole, and the gap is smaller by radius (1 / cos(π / segments) - 1): 5 µm for a radius of 4 mm and 64
-/// segments.
+/// segments). Let peg and hole have equally many segments and be coaxial. If the peg is not turned, the facets are
+/// parallel, and the gap is exactly the difference of the radii. If the peg is turned by half a facet, its corners face
+/// the facets of the hole. The gap is then smaller by radius (1 / cos(π / segments) - 1), for example by 5 µm for a
+/// radius of 4 mm and 64 segments.
 ///
 /// Meshes are closed, face outward, and have no triangle without area.
 ///
-/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
-/// are not positive and finite or do not fit together, and for counts out of range.
+/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, if a size is not
+/// positive and finite, if sizes do not fit together, or if a count is out of range.
 
 #include <glissade/geometry/triangle_mesh.h>
 
@@ -37,8 +37,8 @@ struct HoledPlateShape {
   int rows = 1;             ///< cells along the wall of the hole, 1 ... 100,000
 };
 
-/// Square plate about z with its upper face at z = 0 and a through hole about z with sharp rims. 2 segments (rows + 3)
-/// triangles.
+/// Square plate about z with its upper face at z = 0 and a through hole about z with sharp rims. The mesh has 2
+/// segments (rows + 3) triangles.
 geometry::TriangleMesh make_holed_plate(const HoledPlateShape& plate);
 
 }  // namespace glissade::shapes

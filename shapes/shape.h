@@ -7,7 +7,7 @@
 
 namespace glissade::shapes {
 
-/// One parameter of a shape: name with unit (`radius_m`, `segments`), meaning and default.
+/// One parameter of a shape, with name and unit (`radius_m`, `segments`), meaning and default.
 struct ShapeParameter {
   std::string name;
   std::string description;

@@ -1,7 +1,7 @@
 #pragma once
 
-/// Sheet metal as a surface without thickness: a flat blank with punched holes and pressed beads. The mesh is welded
-/// and conforming, and its edges follow the outlines of holes and beads.
+/// Sheet metal as a surface without thickness, made of a flat blank with punched holes and pressed beads. The mesh is
+/// welded and conforming, and its edges follow the outlines of holes and beads.
 
 #include <cstdint>
 #include <vector>
@@ -20,10 +20,10 @@ struct RoundedRectangle {
   double corner_radius;
 };
 
-/// Signed distance (metres) of `point` from the outline; negative inside.
+/// Signed distance (metres) of `point` from the outline. It is negative inside.
 double signed_distance(const RoundedRectangle& outline, const Eigen::Vector2d& point);
 
-/// A raised (height > 0) or sunk (height < 0) plateau within `foot`. The flank of the plateau rises linearly over
+/// A plateau within `foot`, raised if height > 0 and sunk if height < 0. The flank of the plateau rises linearly over
 /// `flank_width`. Outside the foot the sheet stays exactly flat.
 struct Bead {
   RoundedRectangle foot;
@@ -42,8 +42,8 @@ struct SheetMetal {
 /// The sheet with about `triangle_count` triangles, facing +z. If `triangle_count` is too small for the shapes of holes
 /// and beads, the mesh has more triangles. Vertices of outlines lie on the outlines within 1e-7 m.
 ///
-/// Throws std::invalid_argument for a size that is not positive, a corner radius that does not fit, a flank wider than
-/// the bead allows, or a hole or bead that is not within the sheet. Holes and beads should not overlap. Where a hole
+/// Throws std::invalid_argument in these cases: a size is not positive; a corner radius does not fit; a flank is wider
+/// than the bead allows; or a hole or bead is not within the sheet. Holes and beads should not overlap. Where a hole
 /// overlaps a bead, the hole counts. Where two beads overlap, the later bead counts.
 geometry::TriangleMesh make_sheet(const SheetMetal& sheet, std::int64_t triangle_count);
 

@@ -1,16 +1,16 @@
 #pragma once
 
 /// A unit that slides into a bay, such as a radio into its slot. Spring tongues of the bay overlap the unit by design.
-/// The shapes are for tests of parts that seat although other parts are in the way.
+/// The shapes are for tests of parts that reach their seat although other parts are in the way.
 ///
-/// The unit is given in its own frame. This frame coincides with the frame of the bay when the unit is seated. It
-/// slides in along +y. The bezel lies between y = -bezel_thickness and y = 0. When the unit is seated, the back of the
-/// bezel touches the flange of the bay in the plane y = 0 at a distance of exactly zero. The body reaches from y = 0 to
-/// y = depth, with `clearance` to the bay on all sides and at the back. The tongues stand on the walls x = ± (width / 2
-/// + clearance) and reach into the sides of the body by `overlap`.
+/// The unit is given in its own frame. When the unit is seated, this frame coincides with the frame of the bay. The
+/// unit slides in along +y. The bezel lies between y = -bezel_thickness and y = 0. When the unit is seated, the back of
+/// the bezel touches the flange of the bay in the plane y = 0 at a distance of exactly zero. The body reaches from y =
+/// 0 to y = depth, with `clearance` to the bay on all sides and at the back. The tongues stand on the walls x = ±
+/// (width / 2 + clearance) and reach into the sides of the body by `overlap`.
 ///
-/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
-/// are not positive and finite or do not fit together, and for counts out of range.
+/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, if a size is not
+/// positive and finite, if sizes do not fit together, or if a count is out of range.
 
 #include <cstdint>
 #include <vector>
@@ -31,13 +31,13 @@ struct SlideInShape {
   std::int64_t triangles = 1000;  ///< approximate number for the unit, and for the bay without tongues
 };
 
-/// The unit: body and bezel, two closed components.
+/// The unit, with body and bezel as two closed components.
 geometry::TriangleMesh make_slide_in_unit(const SlideInShape& shape);
 
-/// The bay without its tongues: walls, back and flange, open sheets.
+/// The bay without its tongues, with walls, back and flange as open sheets.
 geometry::TriangleMesh make_bay(const SlideInShape& shape);
 
-/// The tongues: open sheets that rise from their wall and fall back to it. Each tongue has a mesh of its own. The
+/// The tongues, i.e. open sheets that rise from their wall and return to it. Each tongue has a mesh of its own. The
 /// tongues at x < 0 come first, then those at x > 0, each group from front to back.
 std::vector<geometry::TriangleMesh> make_bay_tongues(const SlideInShape& shape);
 

@@ -2,13 +2,14 @@
 
 /// A spur gear with a bore, and a base with a post for the bore. The base is a flat seat with a round guide.
 ///
-/// Teeth are involutes, 1 module high above the pitch circle and 1.25 modules deep below it. Below the base circle the
-/// flanks are straight down to the root. Radii of bore and post are those of inscribed circles, as in `peg_and_hole.h`.
-/// The corners of the post lie farther out by the factor 1 / cos(π / segments). The gear turns freely if the bore's
-/// radius exceeds the radius of these corners. Meshes are closed, face outward, and have no triangle without area.
+/// Teeth are involutes. They are 1 module high above the pitch circle, and 1.25 modules deep below this circle. Below
+/// the base circle the flanks are straight down to the root. Radii of bore and post are those of inscribed circles, as
+/// in `peg_and_hole.h`. The corners of the post lie farther out by the factor 1 / cos(π / segments). The gear turns
+/// freely if the bore's radius exceeds the radius of these corners. Meshes are closed, face outward, and have no
+/// triangle without area.
 ///
-/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, for sizes that
-/// are not positive and finite or do not fit together, and for counts out of range.
+/// Sizes are in metres. The functions throw std::invalid_argument, naming the argument and its value, if a size is not
+/// positive and finite, if sizes do not fit together, or if a count is out of range.
 
 #include <numbers>
 
@@ -40,7 +41,8 @@ struct GearBaseShape {
   int segments = 64;      ///< facets around the post, a multiple of 8 up to 100,000
 };
 
-/// Base with its upper face, the seat, at z = 0, and a post about z on the seat. The mesh has 10 segments triangles.
+/// Base with a post. The upper face of the base, the seat, is at z = 0. The post is about z on the seat. The mesh has
+/// 10 segments triangles.
 geometry::TriangleMesh make_gear_base(const GearBaseShape& base);
 
 }  // namespace glissade::shapes
