@@ -114,6 +114,7 @@ struct GloveCommand {
 };
 
 /// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, Nm s/rad, rad, m, s, Hz.
+/// Required: `max_force`, `max_torque`, `max_stiffness` and `max_rotational_stiffness`. With 0, the hand feels nothing.
 struct DeviceDescriptor {
   std::string name;
   double max_force = 0.0;                 ///< largest norm of the force on the hand
