@@ -19,13 +19,13 @@ namespace glissade::devices {
 
 /// Reasons why a command differs from the wanted command. The first seven let the force fade to zero.
 struct LimitReasons {
-  bool is_stopped = false;      ///< stopped for good: an emergency stop, or the end of the program
+  bool is_stopped = false;      ///< stopped for good by an emergency stop or by the end of the program
   bool is_disabled = false;     ///< the wearer does not hold the enable switch
   bool is_refused = false;      ///< the glove obeys another server
   bool not_finite = false;      ///< a number of the wanted command or of the state is NaN or infinite
   bool is_implausible = false;  ///< a state contradicts the descriptor or earlier states, now or shortly before
   bool is_state_old = false;    ///< the newest state was measured too long ago
-  bool is_command_old = false;  ///< the wanted command answers a state that was measured too long ago or does not exist
+  bool is_command_old = false;  ///< the wanted command answers a state that is too old or does not exist
   bool is_returning = false;    ///< the force returns softly, after the start or after one of the reasons above
   bool force_limited = false;   ///< the force was scaled down to the device's maximum
   bool torque_limited = false;  ///< the torque was scaled down to the device's maximum

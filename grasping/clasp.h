@@ -23,7 +23,7 @@ enum class ClaspState : std::uint8_t {
   /// The chain has not been free since the start, since a motion of the cart, or since an object was placed inside it.
   /// The posture stays the same, and there are no forces. The clasp begins once the target is free.
   kWaiting,
-  kLost,  ///< after `lose_track`, until the next target: as `kWaiting`
+  kLost,  ///< like `kWaiting`, but after `lose_track` until the next target
 };
 
 std::string_view name_of(ClaspState state);
@@ -47,7 +47,7 @@ struct ClaspRules {
 struct LinkContact {
   std::size_t link = 0;
   contact::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
-  double depth = 0.0;        ///< metres, to first order: distance of the link's target beyond the contact
+  double depth = 0.0;        ///< metres, to first order; distance of the link's target beyond the contact
 };
 
 /// Only surfaces stop a link, not the volume within them, because meshes may be open. So a chain wholly within a closed

@@ -29,7 +29,7 @@ constexpr std::optional<std::int64_t> work_of_hand(const contact::SlidingRules& 
 }
 
 struct GraspRules {
-  ClaspRules clasp{};  ///< default of its work budget: `work_of_hand(sliding)`
+  ClaspRules clasp{};  ///< the default work budget is `work_of_hand(sliding)`
   contact::SlidingRules sliding{};
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };

@@ -73,7 +73,7 @@ enum class HandActivity : std::int32_t {
   kWaiting = 2,  ///< the hand has been inside an object since the start or since its tracker found it, and waits until
                  ///< it is free
   kFree = 3,     ///< the hand holds nothing, but may touch objects
-  kHolding = 4,  ///< a part moves with the hand, also while its tracker has lost it
+  kHolding = 4,  ///< a part moves with the hand, even while the tracker has lost the hand
 };
 
 /// Whether a hand with fingers is present among the objects. A hand that waits or is lost is no obstacle, and its

@@ -29,8 +29,8 @@ inline constexpr std::chrono::milliseconds kForceless{100};
 
 /// The constraint of a contact and its range. The other body is an obstacle or a part that another hand leads.
 struct ContactRow : contact::CoupledRow {
-  double range = std::numeric_limits<double>::infinity();  ///< metres: `Contact::range`
-  double approach = 0.0;  ///< m/s: `Contact::approach`; the bound grows at this rate with the age of the set
+  double range = std::numeric_limits<double>::infinity();  ///< metres; see `Contact::range`
+  double approach = 0.0;  ///< m/s, see `Contact::approach`; the bound grows at this rate with the age of the set
   bool pushes = false;    ///< the contact has a positive force
   /// Friction on the part divided by the normal force, in world axes. This vector is perpendicular to the normal, and
   /// its norm is at most the coefficient of friction. It is zero for contacts that do not push.
@@ -44,7 +44,7 @@ inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The simulation's answer for one part.
 struct PartAnswer {
-  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< reference point while this hold lasts: the compliance point
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the compliance point, i.e. the reference point during this hold
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();          ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
@@ -64,7 +64,7 @@ struct PartAnswer {
 /// gap grows by rates · d, to first order.
 struct FingerRow {
   hands::JointValues rates{};                     ///< m/rad
-  double gap = 0.0;                               ///< metres: distance at the visible hand less the margin, at least 0
+  double gap = 0.0;                               ///< metres; distance at the visible hand minus the margin, at least 0
   std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: another body
   Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from the touched body to the segment
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the contact point of the segment
@@ -112,7 +112,7 @@ struct ContactSet {
 struct GhostOfPart {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   bool is_held = false;
-  std::int64_t hold = 0;     ///< increases whenever a hand takes hold or lets go, which sets the ghost anew
+  std::int64_t hold = 0;     ///< increases whenever a hand takes hold or lets go; the ghost is then set anew
   std::int64_t release = 0;  ///< value of `hold` when the last hand let go
 };
 

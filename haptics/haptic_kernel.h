@@ -35,8 +35,8 @@ class Holds;
 
 /// The kernel's data of a part.
 struct KernelPart {
-  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the part's own compliance point: `SlidingPart::p_Vref`
-  double radius = 0.0;                               ///< metres, about `p_Vref`: `SlidingPart::radius`
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the part's own compliance point; see `SlidingPart::p_Vref`
+  double radius = 0.0;                               ///< metres, about `p_Vref`; see `SlidingPart::radius`
   contact::CouplingStiffness stiffness{};            ///< in the simulation
   bool is_scripted = false;                          ///< no hand can hold it
 };

@@ -61,7 +61,7 @@ class HoldRequests {
 /// One tick of the haptic thread.
 struct TickRecord {
   // Consumed.
-  std::int64_t number = 0;                    ///< 1, 2, 3, …: counts the ticks with a state of any hand
+  std::int64_t number = 0;                    ///< 1, 2, 3, …; counts the ticks with a state of any hand
   std::int64_t sequence = 0;                  ///< sequence of `state`; 0: a tick of the final fade, without a state
   std::chrono::nanoseconds deadline{0};       ///< scheduled start
   std::chrono::nanoseconds time{0};           ///< actual start, on the loop's clock

@@ -27,8 +27,8 @@ namespace {
 constexpr const char* kInfoDescription = "Print the size and the defects of a mesh, and the statistics of its DOP-tree";
 
 constexpr const char* kInfoFooter =
-    "A mesh with defects can be used, too. The import welds vertices at equal positions, triangulates polygons, and\n"
-    "omits triangles without area. Keys of --json: docs/file_formats.md in the sources.\n"
+    "Meshes with defects can be used. The import welds vertices at equal positions, triangulates polygons, and omits\n"
+    "triangles without area. For the keys of --json, see docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade info motor.obj\n"

@@ -29,16 +29,16 @@ constexpr const char* kReplayDescription =
     "Repeat a recorded run bit by bit, or send the states of its gloves to a server";
 
 constexpr const char* kReplayFooter =
-    "LOG is a file of 'glissade record' or 'glissade demo --record'. If it is several joined logs, all runs are\n"
-    "repeated. Offline, each tick of the haptic loop and each answer of the simulation takes the recorded input and\n"
-    "must give the same bytes. If a result differs, the error names it, and the exit code is 1. If the log is\n"
+    "LOG is a file of 'glissade record' or 'glissade demo --record'. If LOG consists of several joined logs, all runs\n"
+    "are repeated. Offline, each tick of the haptic loop and each answer of the simulation takes the recorded input\n"
+    "and must give the same bytes. If a result differs, the error names it, and the exit code is 1. If the log is\n"
     "damaged, everything before the damage is repeated, and the exit code is 1. The scene must not have changed.\n"
     "\n"
     "With --lcm, the command sends the states of the recorded gloves to another server. The gloves wait for the first\n"
     "command of this server, take the recorded time, and do not yield to forces. Any log with GLOVE_INFO and\n"
-    "GLOVE_STATE can be used, also a log of lcm-logger.\n"
+    "GLOVE_STATE can be used, such as a log of lcm-logger.\n"
     "With --view, a browser shows the run at the recorded pace.\n"
-    "Keys of --json: docs/file_formats.md in the sources.\n"
+    "For the keys of --json, see docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
     "  glissade demo --seconds 3 --record run.lcmlog && glissade replay run.lcmlog\n"

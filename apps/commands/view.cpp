@@ -39,7 +39,7 @@ constexpr const char* kViewFooter =
     "on this machine. SCENE must be the scene of the server. The default is the scene of 'glissade demo'. The command\n"
     "sends nothing to the server, so it disturbs no hand. 'run', 'demo' and 'replay' have their own page with --view.\n"
     "\n"
-    "Examples, with the files of 'glissade example'; a demonstration publishes:\n"
+    "Examples, with the files of 'glissade example' and a demonstration as the server:\n"
     "  glissade demo --seconds 10 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 10\n"
     "  glissade view car_door.yaml --seconds 10 --port 8500 --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
