@@ -3,9 +3,9 @@
 /// The two ends of a glove's LCM link: `LcmGlove` for the server, i.e. the program with the haptic loop, and
 /// `LcmGloveHost` for the program that drives the glove.
 ///
-/// Each end has a session, a random number drawn when it starts. Each end obeys one sender at a time. This sender holds
-/// the lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then, messages of
-/// the other sender are counted in `LinkStatistics::other_sender`.
+/// Each end has a session, i.e. a random number drawn at its start. Each end obeys one sender at a time. This sender
+/// holds the lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then,
+/// messages of the other sender are counted in `LinkStatistics::other_sender`.
 
 #include <atomic>
 #include <chrono>

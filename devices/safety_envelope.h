@@ -1,6 +1,6 @@
 #pragma once
 
-/// The safety envelope: the only way from a wanted command to a device. It enforces every limit of the device's
+/// The safety envelope is the only way from a wanted command to a device. It enforces every limit of the device's
 /// descriptor. It lets the force fade whenever a state or a command is old, implausible or not permitted.
 
 #include <chrono>
@@ -40,8 +40,8 @@ class SafeCommand {
   double taken_ = 0.0;
 };
 
-/// The most serious reason in plain words, such as "no force: the glove's state is 14 ms old"; empty without reasons.
-/// `age` is the age of the newest state if this state is old, else `SafeCommand::age`.
+/// The most serious reason in plain words, such as "no force: the glove's state is 14 ms old". Empty if there is no
+/// reason. `age` is the age of the newest state if this state is old, else `SafeCommand::age`.
 std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
 std::string to_text(const SafeCommand& command);
 

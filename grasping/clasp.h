@@ -81,8 +81,8 @@ class Clasp {
   /// this object unless the link's target leads away from it.
   void carry(const Posture& posture);
 
-  /// Moves the chain towards the target. Flex values beyond their limits count as the limits. Ignores a target that is
-  /// not finite: posture and contacts stay the same.
+  /// Moves the chain towards the target. Flex values beyond their limits count as the limits. If the target is not
+  /// finite, posture and contacts stay the same.
   void advance(const Posture& target);
 
   /// Call this function when the tracker has lost the hand. Nothing touches any more. The clasp begins anew at the next

@@ -22,7 +22,7 @@
 
 namespace glissade::grasping {
 
-/// The work budget of a hand in a call: a sixteenth of the budget of sliding contact with these rules.
+/// The work budget of a hand in a call, i.e. a sixteenth of the budget of sliding contact with these rules.
 constexpr std::optional<std::int64_t> work_of_hand(const contact::SlidingRules& rules) {
   if (!rules.work_budget) return std::nullopt;
   return *rules.work_budget < 16 ? 1 : *rules.work_budget / 16;
@@ -54,10 +54,10 @@ struct HoldDecision {
 /// body, which follows the tracked palm by sliding contact. The hand stays clasped round the visible part, wherever the
 /// tracked hand goes. Obstacles stop the segments of the hand, and so the part, as they stop the faces of the part. The
 /// fingers still follow the glove. When the fingers open, the hand lets go. It takes hold of the same part again after
-/// 0.2 s at the earliest. A part in two hands follows the mean of their targets. A hand that touches a loose part
-/// without a grasp pushes it. The part then moves, as far as obstacles allow, by the shortest displacement after which
-/// the hand's target is at most 1 mm deep in the part. Its speed is at most 1.5 times that of the fastest pushing
-/// segment (plus the gap of contacts, up to 20 µm a call).
+/// 0.2 s at the earliest. A part in two hands follows the mean of the targets of these hands. A hand that touches a
+/// loose part without a grasp pushes the part. The part then moves, as far as obstacles allow, by the shortest
+/// displacement after which the hand's target is at most 1 mm deep in the part. Its speed is at most 1.5 times that of
+/// the fastest pushing segment (plus the gap of contacts, up to 20 µm a call).
 ///
 /// Without hands, the caller leads the parts, and holds them from the start. The results are then bit-identical to
 /// those of `contact::MultiPartSliding`.
@@ -76,8 +76,8 @@ class GraspSimulation {
   GraspSimulation& operator=(GraspSimulation&&) noexcept;
   ~GraspSimulation();
 
-  /// Advances the simulation. `targets` has one entry for each hand: the tracked posture, or none while the tracking is
-  /// lost. `milliseconds` is the time since the last call.
+  /// Advances the simulation. `targets` has one entry for each hand, which is the tracked posture, or none while the
+  /// tracking is lost. `milliseconds` is the time since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
   /// Advances the simulation if the caller decides on holds. Each part has a ghost pose X_WG, which is used from

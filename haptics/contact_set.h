@@ -44,9 +44,8 @@ inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The simulation's answer for one part.
 struct PartAnswer {
-  Eigen::Vector3d p_Vref =
-      Eigen::Vector3d::Zero();  ///< the compliance point, i.e. the reference point during this hold
-  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();          ///< the visible part, as displayed
+  Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();        ///< reference point of this hold (the compliance point)
+  Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
   /// The target in the frame of the ghost. The target differs from the identity if the hand holds the part at an

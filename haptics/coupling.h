@@ -55,9 +55,9 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::Co
                       std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
 
 /// Like `coupling_for`, but without the check, and for a part whose reference point has the distance `lever` l (metres)
-/// from that of the device. The spring against translation then also turns the device, like a spring of K l² against
-/// rotation. The device's rotational damping must keep this spring passive, too. `max_rotational_stiffness` does not
-/// limit this spring. Real-time safe.
+/// from that of the device. The spring against translation then also turns the device, like a spring of the stiffness K
+/// l² against rotation. The device's rotational damping must keep this spring passive, too. `max_rotational_stiffness`
+/// does not limit this spring. Real-time safe.
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever = 0.0) noexcept;

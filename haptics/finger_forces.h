@@ -62,8 +62,8 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
 /// exactly zero torque.
 ///
 /// The torque is continuous in the posture of the glove. Contacts that push at an arm of less than 2 mm about a joint's
-/// axis count less, down to zero. If a wearer's joint presses with τ Nm, at most the largest torque, it rests τ /
-/// stiffness deeper than the visible hand.
+/// axis count less, down to zero. If a wearer's joint presses with τ Nm, at most the largest torque, the joint rests τ
+/// / stiffness deeper than the visible hand.
 ///
 /// There is no damper, because gloves measure angles, often in coarse steps, and no rates. The stiffness allows for
 /// this.
@@ -80,9 +80,9 @@ class FingerForces {
   /// Limits the stiffness from now on by the delay of the link, as measured at the glove (`GloveState::link_delay`).
   void set_link_delay(std::chrono::nanoseconds delay) noexcept;
 
-  /// Nm/rad, at present.
+  /// The present stiffness, Nm/rad.
   double stiffness() const noexcept { return stiffness_; }
-  /// Nm, of the device.
+  /// The largest joint torque of the device, Nm.
   double max_torque() const noexcept { return device_.max_joint_torque; }
 
   /// The torques (Nm, positive toward larger angles) for a glove with these joint angles (rad). The torques are full
@@ -115,8 +115,8 @@ class FingertipForces {
   /// Throws what the constructor of `FingerForces` throws.
   FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}
 
-  /// N: for each finger, the sum of the contact forces on its last segment. `targets` are the angles (rad) to which the
-  /// wearer closes the hand. Cost: 100 iterations of O(rows · joints).
+  /// For each finger, the sum (N) of the contact forces on its last segment. `targets` are the angles (rad) to which
+  /// the wearer closes the hand. Cost: 100 iterations of O(rows · joints).
   std::array<double, kFingers> update(const hands::JointValues& targets, const HandAnswer& hand);
 
  private:

@@ -1,8 +1,8 @@
 #pragma once
 
-/// One tick of the haptic thread: it computes device commands from device states and the contact set (the simulation's
-/// newest answer). The kernel owns no clock, no thread and no device, so the same code runs in real time, offline and
-/// in tests.
+/// Computes one tick of the haptic thread, i.e. the device commands from the device states and the contact set (the
+/// simulation's newest answer). The kernel owns no clock, no thread and no device, so the same code runs in real time,
+/// offline and in tests.
 
 #include <array>
 #include <chrono>
@@ -91,13 +91,13 @@ struct HapticTick {
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
 class HapticKernel {
  public:
-  /// A hand that takes hold of a part moves the part's ghost rigidly with it, starting from the part's visible pose.
-  /// The coupling of a hand and a part is the result of `coupling_for` with the device, the part's stiffness and
+  /// When a hand takes hold of a part, the part's ghost moves rigidly with the hand, starting from the part's visible
+  /// pose. The coupling of a hand and a part is the result of `coupling_for` with the device, the part's stiffness and
   /// `period`, the usual time between two ticks. If the simulation is stiffer than the device allows, the contact
   /// forces that the simulation reports differ from the force on the hand. To avoid this, construct the simulation with
   /// the stiffness that `coupling_for` returns. Throws what `coupling_for` throws. Also throws std::invalid_argument in
   /// these cases: no hands or more than hands::kMaxHands; no parts or more than kMaxParts; a held part that is scripted
-  /// or does not exist; a hand with fingers and a part; a lower limit of a finger above its upper limit; invalid wrist
+  /// or does not exist; a hand with fingers and a part; limits of a finger that do not form a range; invalid wrist
   /// joints.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
@@ -111,7 +111,7 @@ class HapticKernel {
   bool grasp(std::size_t hand, std::size_t part) noexcept;
   /// Whether the hand exists and has no fingers, and the part exists and can be held.
   bool can_grasp(std::size_t hand, std::size_t part) const noexcept;
-  /// In the next tick the hand lets go, and its force fades. Does nothing if the hand does not exist, has fingers or
+  /// The hand lets go in the next tick, and its force fades. Does nothing if the hand does not exist, has fingers or
   /// holds nothing.
   void release(std::size_t hand) noexcept;
 

@@ -36,21 +36,21 @@ namespace glissade::haptics {
 class Answerer;
 
 struct HapticServerOptions {
-  /// Period of the haptic thread, kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on the period,
-  /// because all rates of change are per second.
+  /// Period of the haptic thread, from kShortestTickPeriod to kLongestTickPeriod. The forces do not depend on the
+  /// period, because all rates of change are per second.
   std::chrono::nanoseconds period = kTickPeriod;
-  /// Number of counted ticks after which the force fades and the haptic thread ends. 0: it runs until `stop`. Ticks
-  /// before the first state of any device and ticks of the fade are not counted.
+  /// Number of counted ticks after which the force fades and the haptic thread ends. With 0, the thread runs until
+  /// `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
   /// Time before each deadline for which the haptic thread polls the clock instead of sleeping, at most half of the
   /// period. Polling makes ticks start on time, and occupies a processor for this time.
   std::chrono::nanoseconds spin{0};
-  /// Receives the state of each counted tick; may be empty. The haptic thread calls it, so it must be real-time safe.
-  /// After an exception from `sink` the force fades, as after an exception of the simulation, and `sink` is not called
-  /// again.
+  /// Receives the state of each counted tick. May be empty. The haptic thread calls this function, so the function must
+  /// be real-time safe. After an exception from `sink` the force fades, as after an exception of the simulation, and
+  /// `sink` is not called again.
   std::function<void(const devices::HapticState&)> sink{};
   LoopObserver* observer = nullptr;  ///< null: none; must outlive the server
-  /// Null: the steady clock of the system. Several threads use the clock. It must outlive the server.
+  /// If null, the steady clock of the system is used. Several threads use the clock. The clock must outlive the server.
   realtime::Clock* clock = nullptr;
 };
 
@@ -116,8 +116,8 @@ class HapticServer {
   /// Blocks for `longest`, or until the server is done or has failed. Then stops the server. If the server has failed,
   /// throws std::runtime_error with the message of `failure`.
   void run_for(std::chrono::nanoseconds longest);
-  /// As `run_for`, without a time limit. The server must have `HapticServerOptions::ticks`; a server with 0 ticks
-  /// throws std::invalid_argument. Without states of any device, this function does not return.
+  /// Like `run_for`, but without a time limit. Throws std::invalid_argument if `HapticServerOptions::ticks` is 0.
+  /// Without states of any device, this function does not return.
   void wait();
 
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.

@@ -44,12 +44,13 @@ void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, 
                  const OfflineRunOptions& options = {});
 
 /// Repeats a recorded run. Ticks and answers consume the recorded inputs, and must produce the recorded bytes. The
-/// simulation needs only the recorded ghosts, so it works ahead of the ticks in a thread of its own. Not thread-safe.
+/// simulation needs only the recorded ghosts, so the simulation works ahead of the ticks in a separate thread. Not
+/// thread-safe.
 class Replay {
  public:
-  /// Scene, rules, devices and parts of `hands`, period and `head` must be those of the recording. The fingers of
-  /// `hands` must be those of the simulation. The simulation must outlive this object, and no one else may use it.
-  /// Throws what the constructor of `HapticKernel` throws.
+  /// These must be those of the recording: the scene, the rules, the devices and parts of `hands`, the period, and
+  /// `head`. The fingers of `hands` must be those of the simulation. The simulation must outlive this object, and no
+  /// one else may use it. Throws what the constructor of `HapticKernel` throws.
   Replay(grasping::GraspSimulation& simulation, std::vector<KernelHand> hands, std::chrono::nanoseconds period,
          RecordingHead head);
   ~Replay();

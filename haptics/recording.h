@@ -162,8 +162,8 @@ class LogRecorder final : public LoopObserver {
   void after_tick(const TickRecord& record) noexcept override;
   void after_answer(const AnswerRecord& record) noexcept override;
 
-  /// Ends the file. Call it after the last call of the functions above. Throws std::runtime_error, naming the file,
-  /// when not everything could be written.
+  /// Ends the file. Call this function after the last call of the functions above. Throws std::runtime_error, naming
+  /// the file, when something could not be written.
   void close();
 
  private:

@@ -38,7 +38,7 @@ class SlidingSimulation {
   virtual std::span<const Eigen::Isometry3d> scripted_X_WB() const { return {}; }
   virtual const contact::SlidingPart& part() const = 0;
   virtual const contact::CouplingStiffness& stiffness() const = 0;
-  /// For the paper's method: the largest gap of a reported contact, as in `Contact::margin`.
+  /// The largest gap of a reported contact of the paper's method; see `Contact::margin`.
   virtual double margin() const = 0;
   /// Number of collision checks or contact searches since construction.
   virtual std::int64_t queries() const = 0;
@@ -66,9 +66,9 @@ inline std::string_view name_of(SlidingMethod method) {
 /// The method with this name; no value for an unknown name.
 std::optional<SlidingMethod> sliding_method_from_name(std::string_view name);
 
-/// The simulation of one part by either method. For `kProjection`, throws as the constructor of `Sliding` does.
-/// `kPaper` uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles.
-/// `kPaper` throws std::invalid_argument in these cases: a part is scripted; there is no obstacle; a pointer is null;
+/// The simulation of one part by either method. `kProjection` throws what the constructor of `Sliding` throws. `kPaper`
+/// uses the metaphor and stiffness of the options, and ignores the rules and the margins of obstacles. `kPaper` throws
+/// std::invalid_argument in these cases: a part is scripted; there is no obstacle; a pointer is null;
 /// `geometry::rigid_pose` rejects a pose; or the part collides with an obstacle at the start.
 std::unique_ptr<SlidingSimulation> make_sliding(SlidingMethod method, std::vector<contact::Obstacle> obstacles,
                                                 std::shared_ptr<const contact::SlidingPart> part_V,
