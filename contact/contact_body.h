@@ -58,8 +58,8 @@ class SlidingPart : public ContactBody {
   /// Throws what the constructor of `ContactBody` throws.
   explicit SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
 
-  /// The compliance point is `p_Vref` (metres). Also throws std::invalid_argument if `p_Vref` is not finite, or is
-  /// farther from the centre of the bounding box than kFarthestPoint times the farthest vertex.
+  /// The compliance point is `p_Vref` (metres). Also throws std::invalid_argument if `p_Vref` is not finite, or if its
+  /// distance from the centre of the bounding box exceeds kFarthestPoint times the distance of the farthest vertex.
   SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref);
 
   const Eigen::Vector3d& p_Vref() const { return p_Vref_; }

@@ -3,7 +3,7 @@
 /// Sliding contact of several parts at once (§3 of the founding paper, *Natural Interaction in Virtual Environments*).
 /// A hand or a script (poses given over time) holds each part. The ghost of a part is the pose that the part would have
 /// if nothing were in the way. Each visible part follows its ghost as closely as the obstacles and the other parts
-/// allow. A part that starts apart from all other bodies never enters another body, neither at rest nor on its path. If
+/// allow. If a part touches no other body at the start, it never penetrates one, at rest or in motion. If
 /// a part touches or overlaps a body at the start, the part never gets deeper into this body.
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
@@ -79,7 +79,7 @@ class MultiPartSliding {
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
   void release(std::size_t part);
 
-  /// Places the riders of a chain, at one rigid pose X_WB for each rider. The caller must ensure that the riders
+  /// Places the bodies of a rider chain: one pose X_WB for each body. The caller must ensure that the riders
   /// collide with nothing on their way. The riders of an attached chain keep these poses relative to their part from
   /// now on.
   void place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB);

@@ -5,9 +5,9 @@
 ///
 /// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
 /// processes and hosts by UDP multicast. With `ttl=0`, as in `udpm://239.255.76.67:7667?ttl=0`, messages stay on this
-/// machine, and the bus receives only messages of this machine. With a greater ttl, the bus receives only messages from
-/// the interface to which this machine routes the group. Other LCM programs (`lcm-logger`, `lcm-spy`) can take part.
-/// The bus receives messages in one packet, and drops fragments.
+/// machine, and the bus receives only messages of this machine. With a greater ttl, the bus receives only messages that
+/// arrive on the interface to which this machine routes the group. Other LCM programs (`lcm-logger`, `lcm-spy`) can
+/// take part. The bus receives messages in one packet, and drops fragments.
 
 #include <array>
 #include <cstdint>

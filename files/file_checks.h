@@ -17,7 +17,7 @@ void check_input(const std::string& path);
 /// it. A device or a pipe may be written.
 void check_output(const std::string& path);
 
-/// The file after `check_output`, open for writing. Waits where a pipe has no reader.
+/// The file after `check_output`, open for writing. If the file is a pipe without a reader, waits for the reader.
 std::ofstream open_output(const std::string& path);
 
 /// Before a run whose recording is to be written. As `check_output`; the file must be no pipe, because a run cannot

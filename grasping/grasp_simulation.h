@@ -104,7 +104,7 @@ class GraspSimulation {
   const std::shared_ptr<const HandModel>& model(std::size_t hand) const;
   hands::HandActivity activity(std::size_t hand) const;
   /// The visible hand. While the hand is free or holds a part, its posture and its path are collision-free. A hand
-  /// keeps its posture, and is no obstacle, while it waits, or while it is lost and holds nothing.
+  /// keeps its posture and is no obstacle in two cases: it waits; or its tracking is lost and it holds nothing.
   const Posture& posture(std::size_t hand) const;
   const Clasp& clasp(std::size_t hand) const;
   /// The contacts of the clasp, and contacts of segments that noise has moved away from the held part by millimetres.

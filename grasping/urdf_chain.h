@@ -33,7 +33,7 @@ struct UrdfChain {
 ///
 /// Throws std::invalid_argument, naming the file and the link or joint, in these cases: the file is missing or not well
 /// formed; a joint is prismatic, floating or planar; the links do not form one tree; a limit, axis, size or scale is
-/// invalid; a joint mimics a missing or fixed joint, or mimics form a circle; or a mesh file cannot be found or
+/// invalid; a joint mimics a missing or fixed joint, or mimic joints form a cycle; or a mesh file cannot be found or
 /// imported. May block on the disk.
 UrdfChain read_urdf(const std::filesystem::path& path);
 

@@ -331,8 +331,9 @@ void add_slide_command(CLI::App& app, Command& chosen) {
   command->add_option("SCENE", options->scene, "Scene file (YAML)")->required();
   command->add_option("--part", options->part, "Name of the object in the hand")->required();
   command
-      ->add_option("--trajectory", options->trajectories,
-                   "Trajectory of the ghost (CSV), see below; several for an assembly check")
+      ->add_option(
+          "--trajectory", options->trajectories,
+          "Trajectory of the ghost (CSV), see below. Several files, one per trajectory, make an assembly check")
       ->required();
   add_sliding_options(*command, options->sliding);
   command->add_option("--method", options->method, "Sliding method, see below")->capture_default_str();
