@@ -28,6 +28,8 @@ nanoseconds period_of(const DeviceDescriptor& descriptor, nanoseconds of_caller)
 
 /// The stages through which a command passes, and what they share.
 struct SafetyEnvelope::Stages {
+  Stages(const Stages&) = delete;  // they refer to each other
+  Stages& operator=(const Stages&) = delete;
   Stages(const DeviceDescriptor& of_device, double patience_periods, nanoseconds period_of_caller)
       : descriptor(of_device),
         period(period_of(of_device, period_of_caller)),

@@ -56,17 +56,17 @@ std::string to_text(const SafeCommand& command);
 /// A passivity observer computes the work of force and torque on the hand from the measured motion and from the
 /// commands after all limits. Each command acts from the delay of the device on until the next command acts, for at
 /// most 10 ms. The available energy is what the hand has put in and not got back, plus 0.1 J at the start for errors of
-/// sampling. It is at most 0.25 m times the largest force. Joint torques are not counted. The wrench is a continuous
-/// function of the energy and the velocity. The remaining energy must suffice to bring the wrench to zero as a spring
-/// does that the device renders passively; docs/safety.md has the derivation. At the end of a contact, the energy falls
-/// to at most 0.1 J. Energy below 0.1 J, or below what the wanted wrench needs, recovers. The rate is 0.3 W without a
-/// contact, lower in a trembling contact, and higher in a calm contact and after an interruption. The recovery is at
-/// most 1 J, which refills at 0.25 W; docs/safety.md has the conditions. For a glove that reports the delay of its
-/// link, only the envelope at the glove's end limits the energy. So no delay and no error of the simulation can feed a
-/// fast oscillation of more than 20 mW, and a hand at rest feels no jump. Source of the observer: Hannaford and Ryu,
-/// Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the energy in a tank,
-/// and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a two-layer approach
-/// combining passivity and transparency, 2011.
+/// sampling. It is at most about 0.25 m times the largest force. Joint torques are not counted. The wrench is a
+/// continuous function of the energy and the velocity. The remaining energy must suffice to bring the wrench to zero as
+/// a spring does that the device renders passively; docs/safety.md has the derivation. At the end of a contact, the
+/// energy falls to at most 0.1 J. Energy below 0.1 J, or below what the wanted wrench needs, recovers. The rate is 0.3
+/// W without a contact, lower in a trembling contact, and higher in a calm contact and after an interruption. The
+/// recovery is at most 1 J, which refills at 0.25 W; docs/safety.md has the conditions. For a glove that reports the
+/// delay of its link, only the envelope at the glove's end limits the energy. So no delay and no error of the
+/// simulation can feed a fast oscillation that pushes both ways with more than 20 mW, and a hand at rest feels no jump.
+/// Source of the observer: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of
+/// wrenches that shrink with the energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral
+/// telemanipulation with time delays: a two-layer approach combining passivity and transparency, 2011.
 ///
 /// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`
 /// counts as energy that the hand has put in, in proportion to the share of the wanted wrench that was exerted. It

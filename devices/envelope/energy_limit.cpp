@@ -26,7 +26,8 @@ constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
 constexpr double kMostDebt_J = 0.3;
 constexpr nanoseconds kForgivesAgain = std::chrono::seconds(30);
 
-double spare(const Forces& forces) noexcept {
+/// The work on the last millimetre, J.
+double work_of_last_way(const Forces& forces) noexcept {
   return kSpare_m * forces.f.norm() + kSpare_rad * forces.t.norm();
 }
 
@@ -87,8 +88,12 @@ void EnergyLimit::book(double change, bool is_jump, nanoseconds now) noexcept {
   forgives_from_ = now + kForgivesAgain;
 }
 
+/// What a hand stores that presses a spring which the device renders passively, at least.
 double EnergyLimit::most() const noexcept {
-  return std::max(kStartEnergy_J, kMostEnergy_m * descriptor_.max_force);
+  Forces greatest;
+  greatest.f.x() = descriptor_.max_force;
+  const double pressed = work_of_last_way(greatest) + work_of_fall(greatest);
+  return std::max({kStartEnergy_J, kMostEnergy_m * descriptor_.max_force, pressed});
 }
 
 void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept {
@@ -102,7 +107,8 @@ void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double
 /// vanished for a moment: but only while nothing oscillates.
 void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, double dt) noexcept {
   const bool has_contact = has_force_ || forces.has_wrench();
-  enough_ = has_contact ? std::max(kStartEnergy_J, spare(forces) + work_of_fall(forces)) : kStartEnergy_J;
+  enough_ = kStartEnergy_J;
+  if (has_contact) enough_ = std::clamp(work_of_last_way(forces) + work_of_fall(forces), kStartEnergy_J, most());
   refill_ = std::min(kMostRefill_J, refill_ + kRefill_W * dt);
   if (returns) free_until_ = now + kReturnIsFree;
   strokes_.forget(dt);
@@ -127,14 +133,17 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
 // counts, and c goes as the root of the energy, as the force of a spring does.
 void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_zero, nanoseconds now, double dt,
                         LimitReasons& reasons) noexcept {
-  if (state.link_delay > nanoseconds(0)) return;
+  if (state.link_delay > nanoseconds(0) || !forces.has_wrench()) {
+    power_ = 0.0;
+    return;
+  }
   const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
   const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnergyPeriods * period_s_, time_to_zero);
   // A brake that follows each change of the velocity would itself shake a light hand at a slow device.
   power_ =
       std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH), power_ * std::exp(-dt / (kHeldPower * ahead_s)));
-  const double going_on = spare(forces) + ahead_s * power_;
+  const double going_on = work_of_last_way(forces) + ahead_s * power_;
   // What the device has been given and does not exert yet is not counted yet.
   const double under_way = std::max(0.0, given_.work_to_come(now, state.v_WH, state.w_WH));
   const double available = std::max(0.0, energy_ - under_way);

@@ -49,6 +49,7 @@ std::optional<BookedMotion> StateCheck::observe(const GloveState& state, nanosec
   if (!goes_on || counts) {
     booked_ = state;
     booked_at_ = measured;
+    if (!plausible) booked_.v_WH = booked_.w_WH = Eigen::Vector3d::Zero();  // they may be the error
   }
   const bool repeats = has_state_ && state.X_WH.matrix() == state_.X_WH.matrix();
   if (!repeats) pose_time_ = state.time;

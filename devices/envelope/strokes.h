@@ -3,6 +3,7 @@
 /// Whether a hand rests in its contact or moves to and fro.
 
 #include <chrono>
+#include <optional>
 
 #include <Eigen/Geometry>
 
@@ -56,7 +57,7 @@ class Strokes {
 
  private:
   PoseInPlay pose_;
-  std::chrono::nanoseconds last_{0};                // measurement of the glove up to which it was observed
+  std::optional<std::chrono::nanoseconds> last_;    // measurement of the glove up to which it was observed
   Eigen::Vector3d v_WH_ = Eigen::Vector3d::Zero();  // mean velocity of the pose in play, m/s
   Eigen::Vector3d w_WH_ = Eigen::Vector3d::Zero();  // rad/s
   double came_ = 0.0;                               // J

@@ -100,7 +100,7 @@ TEST(Supply, WhatIsAskedForIsGivenUpFirstAndThenForgotten) {
   EXPECT_DOUBLE_EQ(supply.give_up(0.4, 1e-3), 0.4);
   EXPECT_DOUBLE_EQ(supply.taken(), 0.4);
   EXPECT_EQ(take(-0.95), 0.0) << "less is asked for";
-  EXPECT_EQ(supply.give_up(5.0, 10.0), 0.6 * (1.0 - 1e-3) - 0.02);
+  EXPECT_NEAR(supply.give_up(5.0, 10.0), 0.6 * (1.0 - 1e-3) - 0.02, 1e-12);
   EXPECT_EQ(supply.give_up(5.0, 1e-3), 0.0);
 }
 
