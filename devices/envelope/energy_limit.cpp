@@ -133,14 +133,12 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
 // counts, and c goes as the root of the energy, as the force of a spring does.
 void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_zero, nanoseconds now, double dt,
                         LimitReasons& reasons) noexcept {
-  if (state.link_delay > nanoseconds(0) || !forces.has_wrench()) {
-    power_ = 0.0;
-    return;
-  }
+  if (state.link_delay > nanoseconds(0)) return;
   const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
   const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnergyPeriods * period_s_, time_to_zero);
-  // A brake that follows each change of the velocity would itself shake a light hand at a slow device.
+  // A brake that follows each change of the velocity would itself shake a light hand at a slow device. A hand that has
+  // left a contact fast may come back before a late device has let go: its power is remembered in free space, too.
   power_ =
       std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH), power_ * std::exp(-dt / (kHeldPower * ahead_s)));
   const double going_on = work_of_last_way(forces) + ahead_s * power_;
@@ -149,7 +147,7 @@ void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_
   const double available = std::max(0.0, energy_ - under_way);
   const double root = going_on + std::sqrt(going_on * going_on + 4.0 * fall * available);
   const double share = available > 0.0 ? std::min(1.0, 2.0 * available / root) : 0.0;
-  if (share >= 1.0) return;
+  if (share >= 1.0 || !forces.has_wrench()) return;
   forces.scale_wrench(share);
   reasons.energy_limited = true;
 }
