@@ -10,7 +10,6 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/contact/bodies_motion.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/sliding_result.h>
 

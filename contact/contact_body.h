@@ -3,9 +3,11 @@
 /// A mesh prepared for sliding contact. The mesh belongs to a part (an object that a hand or a script moves) or to an
 /// obstacle.
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 
 #include <Eigen/Geometry>
@@ -89,6 +91,19 @@ struct Obstacle {
   /// smaller margin allows a tighter fit. A larger margin leaves more clearance. At most kGreatestMargin_m
   /// (`sliding_rules.h`).
   std::optional<double> margin{};
+};
+
+/// A motion of several bodies together, the movers of `CertifiedBodies`. The parameter t runs from 0 to 1.
+class BodiesMotion {
+ public:
+  virtual ~BodiesMotion() = default;
+
+  /// Writes the pose X_WM of each mover at t, one entry for each mover.
+  virtual void poses(double t, std::span<Eigen::Isometry3d> X_WM) const = 0;
+  /// Upper bound (metres) of |x(t) − x(0)| for every point x of a mover and every t.
+  virtual double length(std::size_t mover) const = 0;
+  /// Upper bound (metres) of |d²x/dt²| for every point x of a mover and every t.
+  virtual double acceleration(std::size_t mover) const = 0;
 };
 
 }  // namespace glissade::contact

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include <glissade/apps/commands/least_clearance.h>
 #include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/commands/slide_check.h>
 #include <glissade/apps/durations.h>
@@ -19,6 +18,7 @@
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/contact/spring.h>
 #include <glissade/reference/sliding_method.h>
+#include <glissade/simulation/least_clearance.h>
 
 namespace glissade::apps {
 namespace {
@@ -105,7 +105,7 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
     check.problem = error.what();
     return check;
   }
-  LeastClearance clearance(scene);
+  simulation::LeastClearance clearance(scene);
   std::int64_t contact_ticks = 0;
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   ClearanceCurve curve(scene, ticks + 1);

@@ -11,7 +11,7 @@
 #include <Eigen/Geometry>
 
 #include <glissade/base/assert.h>
-#include <glissade/contact/bodies_motion.h>
+#include <glissade/contact/contact_body.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/triangle_pair.h>
 

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <glissade/contact/bodies_motion.h>
 #include <glissade/contact/certified_bodies.h>
+#include <glissade/contact/contact_body.h>
 
 namespace glissade::grasping {
 

@@ -1,7 +1,8 @@
 #pragma once
 
-/// The least distance, over all poses of a run, between a part and the other objects of its scene. Neighboring poses
-/// share their work: no search is made as long as the part cannot have come nearer than the least distance so far.
+/// The least distance of a run: the smallest distance, over all its poses, between a part and the other bodies of its
+/// scene. Neighboring poses share their work: while the part cannot have come nearer than the least distance so far,
+/// there is no search.
 
 #include <cstdint>
 #include <limits>
@@ -10,11 +11,11 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/collision/query_types.h>
 #include <glissade/contact/sliding_result.h>
+#include <glissade/simulation/simulation.h>
 
-namespace glissade::apps {
+namespace glissade::simulation {
 
 /// The work of a `LeastClearance`.
 struct ClearanceWork {
@@ -36,14 +37,16 @@ class LeastClearance {
   /// triangles are as near as the nearest.
   static constexpr double kFarthest = 10.0;
 
-  /// For the first part of the scene, which must outlive this object.
-  explicit LeastClearance(const HapticScene& scene);
+  /// For the part with the number `part`. `bodies` must outlive this object. Hands do not count.
+  explicit LeastClearance(const SceneBodies& bodies, std::size_t part = 0);
 
-  /// Takes the next pose of the part and the poses of the objects that move on their own, in their order in the scene.
-  /// `contacts`, at this pose or near it, save work: their triangles are near. Cost: mostly that of the pairs of
-  /// triangles that come as near as the least distance so far.
+  /// Adds the next pose of the part. `moving_X_WB` has the poses of the other parts, and then of the objects that move
+  /// on their own, in their order in the scene. `contacts` of the part, at this pose or near it, save work: their
+  /// triangles are near. Cost: mostly that of the pairs of triangles that come as near as the least distance so far.
   void note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
             std::span<const contact::Contact> contacts);
+  /// Adds the present poses of a simulation of these bodies.
+  void note(const Simulation& simulation);
 
   /// To be called after the last pose, before the results are read.
   void finish();
@@ -64,7 +67,8 @@ class LeastClearance {
   };
   struct Body {
     const contact::ContactBody* body_B;
-    Eigen::Isometry3d X_WB;
+    const contact::SlidingPart* moving_B;  ///< the same if it moves, or else null
+    Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d X_BV = Eigen::Isometry3d::Identity();
     collision::CoherentWorkspace workspace{};
     double clock = 0.0;      ///< metres
@@ -89,10 +93,11 @@ class LeastClearance {
   double distance_of(const Body& body, const Eigen::Isometry3d& X_BV, Pair& pair);
   void take(double distance, std::int64_t pose);
 
+  std::size_t part_;
   const contact::SlidingPart& part_V_;
-  std::vector<contact::ScriptedPart> moving_;
-  std::vector<Body> bodies_;  // obstacles, then objects that move on their own
+  std::vector<Body> bodies_;  // obstacles, then other parts, then objects that move on their own
   std::size_t first_moving_;
+  std::size_t own_number_;  // among the bodies of contacts
   std::vector<Eigen::Isometry3d> X_WV_noted_;
   std::vector<Eigen::Isometry3d> X_WB_noted_;  // those of one pose after those of another
   Eigen::Isometry3d X_WV_ = Eigen::Isometry3d::Identity();
@@ -103,4 +108,4 @@ class LeastClearance {
   ClearanceWork work_;
 };
 
-}  // namespace glissade::apps
+}  // namespace glissade::simulation

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glissade/apps/commands/least_clearance.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/geometry/displacement.h>
 #include <glissade/geometry/triangle_pair.h>
+#include <glissade/simulation/least_clearance.h>
 
-namespace glissade::apps {
+namespace glissade::simulation {
 namespace {
 
 // Poses wait for others with contacts, which may make it needless to know how far apart distant bodies are.
@@ -43,15 +43,22 @@ double most_ahead(const contact::SlidingPart& part, double nearest) {
 
 }  // namespace
 
-LeastClearance::LeastClearance(const HapticScene& scene)
-    : part_V_(*scene.parts.front().part_V),
-      moving_(scene.moving),
-      first_moving_(scene.obstacles.size()),
+LeastClearance::LeastClearance(const SceneBodies& bodies, std::size_t part)
+    : part_(part),
+      part_V_(*bodies.parts.at(part).part_V),
+      first_moving_(bodies.obstacles.size()),
+      own_number_(first_moving_ + part),
       least_(farthest()) {
-  for (const contact::Obstacle& obstacle : scene.obstacles)
-    bodies_.push_back({.body_B = obstacle.body.get(), .X_WB = obstacle.X_WO});
-  for (const contact::ScriptedPart& moving : moving_)
-    bodies_.push_back({.body_B = moving.part_B.get(), .X_WB = Eigen::Isometry3d::Identity()});
+  for (const contact::Obstacle& obstacle : bodies.obstacles)
+    bodies_.push_back({.body_B = obstacle.body.get(), .moving_B = nullptr, .X_WB = obstacle.X_WO});
+  const auto add_moving = [&](const contact::SlidingPart& body) {
+    bodies_.push_back({.body_B = &body, .moving_B = &body});
+  };
+  for (std::size_t other = 0; other < bodies.parts.size(); ++other) {
+    if (other != part) add_moving(*bodies.parts[other].part_V);
+  }
+  for (const contact::ScriptedPart& moving : bodies.moving)
+    add_moving(*moving.part_B);
 }
 
 void LeastClearance::note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
@@ -60,6 +67,15 @@ void LeastClearance::note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::
   X_WV_noted_.push_back(X_WV);
   X_WB_noted_.insert(X_WB_noted_.end(), moving_X_WB.begin(), moving_X_WB.end());
   if (X_WV_noted_.size() == kMostNoted) look_at_noted();
+}
+
+void LeastClearance::note(const Simulation& simulation) {
+  const contact::MultiPartSliding& parts = simulation.engine().parts();
+  std::vector<Eigen::Isometry3d> moving_X_WB;
+  for (std::size_t p = 0; p < parts.part_count(); ++p) {
+    if (p != part_) moving_X_WB.push_back(parts.result(p).X_WV);
+  }
+  note(simulation.X_WV(part_), moving_X_WB, simulation.result(part_).contacts);
 }
 
 void LeastClearance::finish() {
@@ -71,19 +87,21 @@ void LeastClearance::try_contacts(const Eigen::Isometry3d& X_WV, std::span<const
   const auto nearest =
       std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
   if (nearest == contacts.end() || nearest->kind == contact::ContactKind::kOverlap || nearest->gap >= least_) return;
-  // The part has a number too, between those of obstacles and moving objects.
+  // The part has a number too, and hands come last.
   const auto number = static_cast<std::size_t>(nearest->obstacle);
-  const bool moves = number > first_moving_;
-  const Body& body = bodies_[moves ? number - 1 : number];
-  const Eigen::Isometry3d& X_WB = moves ? moving_X_WB[number - 1 - first_moving_] : body.X_WB;
+  const std::size_t b = number > own_number_ ? number - 1 : number;
+  if (b >= bodies_.size()) return;
+  const Body& body = bodies_[b];
+  const Eigen::Isometry3d& X_WB = b >= first_moving_ ? moving_X_WB[b - first_moving_] : body.X_WB;
   Pair pair{{nearest->obstacle_triangle, nearest->part_triangle}, Eigen::Vector3d::Zero(), 0.0};
   take(distance_of(body, X_WB.inverse(Eigen::Isometry) * X_WV, pair),
        looked_at_ + static_cast<std::int64_t>(X_WV_noted_.size()));
 }
 
 void LeastClearance::look_at_noted() {
+  const std::size_t moving = bodies_.size() - first_moving_;
   for (std::size_t i = 0; i < X_WV_noted_.size(); ++i) {
-    move_to(X_WV_noted_[i], std::span(X_WB_noted_).subspan(i * moving_.size(), moving_.size()));
+    move_to(X_WV_noted_[i], std::span(X_WB_noted_).subspan(i * moving, moving));
     for (Body& body : bodies_) {
       if (body.meets_at - body.clock < least_) look_at(body);
     }
@@ -101,7 +119,7 @@ void LeastClearance::move_to(const Eigen::Isometry3d& X_WV, std::span<const Eige
     body.step = part_moved;
     if (b >= first_moving_) {
       const std::size_t i = b - first_moving_;
-      if (!is_first) body.step += motion_of(*moving_[i].part_B, body.X_WB, moving_X_WB[i]);
+      if (!is_first) body.step += motion_of(*body.moving_B, body.X_WB, moving_X_WB[i]);
       body.X_WB = moving_X_WB[i];
     }
     body.clock += body.step;
@@ -202,4 +220,4 @@ void LeastClearance::take(double distance, std::int64_t pose) {
   least_at_ = pose;
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::simulation

@@ -11,31 +11,28 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/apps/commands/least_clearance.h>
-#include <glissade/apps/files/scene_file.h>
-#include <glissade/apps/scene/haptic_scene.h>
-#include <glissade/apps/view/clearance_curve.h>
 #include <glissade/collision/dop_query.h>
 #include <glissade/contact/sliding.h>
+#include <glissade/simulation/least_clearance.h>
+#include <glissade/simulation/scene.h>
+#include <glissade/simulation/simulation.h>
 
+#include "poses.h"
 #include "random_numbers.h"
 
-namespace glissade::apps {
+namespace glissade::simulation {
 namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using test_support::pose;
 
-Isometry3d pose(const Vector3d& p, const Eigen::Quaterniond& q = Eigen::Quaterniond::Identity()) {
-  return Eigen::Translation3d(p) * q;
-}
-
-HapticScene scene_of(const std::string& objects, const std::vector<std::string>& parts = {"part"}) {
-  return make_haptic_scene(parse_scene("objects:\n" + objects, "scene", "."), parts);
+SceneBodies scene_of(const std::string& objects, const std::vector<std::string>& parts = {"part"}) {
+  return bodies_of(parse_scene("objects:\n" + objects, "scene", "."), parts);
 }
 
 /// Whether the part is within `distance` of any other object, by a search of its own.
-bool is_within(double distance, const HapticScene& scene, const Isometry3d& X_WV,
+bool is_within(double distance, const SceneBodies& scene, const Isometry3d& X_WV,
                std::span<const Isometry3d> moving_X_WB) {
   collision::QueryWorkspace workspace;
   const auto reaches = [&](const contact::ContactBody& body, const Isometry3d& X_WB) {
@@ -53,7 +50,7 @@ bool is_within(double distance, const HapticScene& scene, const Isometry3d& X_WV
 /// Notes poses, and compares with full searches at each of them.
 class Comparison {
  public:
-  explicit Comparison(const HapticScene& scene) : scene_(scene), clearance_(scene) {}
+  explicit Comparison(const SceneBodies& scene) : scene_(scene), clearance_(scene) {}
 
   void note(const Isometry3d& X_WV, const std::vector<Isometry3d>& moving_X_WB = {},
             std::span<const contact::Contact> contacts = {}) {
@@ -81,7 +78,7 @@ class Comparison {
     Isometry3d X_WV;
     std::vector<Isometry3d> moving_X_WB;
   };
-  const HapticScene& scene_;
+  const SceneBodies& scene_;
   LeastClearance clearance_;
   std::vector<Poses> poses_;
 };
@@ -95,7 +92,7 @@ constexpr const char* kThings =
     "  - {name: far, shape: {type: box}, pose: {position_m: [3, 0, 0]}}\n";
 
 TEST(LeastClearance, IsThatOfAFullSearchAtEveryPose) {
-  const HapticScene scene = scene_of(kThings);
+  const SceneBodies scene = scene_of(kThings);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     test_support::RandomNumbers random(seed);
@@ -114,7 +111,7 @@ TEST(LeastClearance, IsThatOfAFullSearchAtEveryPose) {
 }
 
 TEST(LeastClearance, CountsTheMotionOfObjectsThatMoveOnTheirOwn) {
-  HapticScene scene = scene_of(kThings);
+  SceneBodies scene = scene_of(kThings);
   scene.moving.push_back({std::make_shared<const contact::SlidingPart>(
                               std::make_shared<const geometry::TriangleMesh>(scene.parts.front().part_V->tree.mesh())),
                           geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})});
@@ -128,7 +125,7 @@ TEST(LeastClearance, CountsTheMotionOfObjectsThatMoveOnTheirOwn) {
 }
 
 TEST(LeastClearance, IsInfiniteOfAPartThatNeverComesNear) {
-  const HapticScene scene = scene_of(kThings);
+  const SceneBodies scene = scene_of(kThings);
   Comparison comparison(scene);
   for (int tick = 0; tick < 20; ++tick)
     comparison.note(pose({-8.0 + 0.01 * tick, 0.01 * tick, 0.0}));
@@ -145,7 +142,7 @@ TEST(LeastClearance, IsInfiniteOfAPartThatNeverComesNear) {
 // Far away, and for a part that moves by much of its size in a step, almost all pairs of triangles are as near as the
 // nearest.
 TEST(LeastClearance, ListsFewPairsFarAwayAndAtAnySpeed) {
-  const HapticScene scene = scene_of(
+  const SceneBodies scene = scene_of(
       "  - {name: part, movable: true, shape: {type: box, triangles: 1200}}\n"
       "  - {name: plate, shape: {type: plate, size_x_m: 0.3, size_y_m: 0.3, triangles: 1200}}\n");
   for (const double step : {0.0, 1e-5, 1e-3, 1e-2}) {
@@ -162,7 +159,7 @@ TEST(LeastClearance, ListsFewPairsFarAwayAndAtAnySpeed) {
 }
 
 TEST(LeastClearance, IsZeroOfWhatOverlaps) {
-  const HapticScene scene = scene_of(kThings);
+  const SceneBodies scene = scene_of(kThings);
   Comparison comparison(scene);
   comparison.note(pose({0.0, 0.0, 0.0}));
   comparison.note(pose({0.2, 0.0, 0.03}));
@@ -179,7 +176,7 @@ constexpr int kTicks = 500;
 /// The box goes over the floor, 0.2 mm each tick, as this height says.
 template <typename Height>
 ClearanceWork work_over_the_floor(const Height& height) {
-  const HapticScene scene = scene_of(kBoxOnFloor);
+  const SceneBodies scene = scene_of(kBoxOnFloor);
   LeastClearance clearance(scene);
   for (int tick = 0; tick < kTicks; ++tick)
     clearance.note(pose({2e-4 * tick, 0.0, 0.02 + height(tick)}), {}, {});
@@ -203,7 +200,7 @@ TEST(LeastClearance, SearchesOnceAStepAtMostWhileAPartComesNearer) {
 }
 
 TEST(LeastClearance, DoesNothingForAPartThatRests) {
-  const HapticScene scene = scene_of(kBoxOnFloor);
+  const SceneBodies scene = scene_of(kBoxOnFloor);
   LeastClearance clearance(scene);
   for (int tick = 0; tick < kTicks; ++tick)
     clearance.note(pose({0.0, 0.0, 0.0201}), {}, {});
@@ -213,7 +210,7 @@ TEST(LeastClearance, DoesNothingForAPartThatRests) {
 }
 
 TEST(LeastClearance, LaterContactsMakeEarlierDistancesNeedless) {
-  const HapticScene scene = scene_of(kBoxOnFloor);
+  const SceneBodies scene = scene_of(kBoxOnFloor);
   const auto trajectory = [](int tick) { return pose({1e-3 * tick, 0.0, std::max(0.019, 0.3 - 1e-3 * tick)}); };
   contact::Sliding sliding(scene.obstacles, scene.parts.front().part_V, trajectory(0), {});
   Comparison comparison(scene);
@@ -226,131 +223,36 @@ TEST(LeastClearance, LaterContactsMakeEarlierDistancesNeedless) {
   EXPECT_LT(work.searches, 150) << "of 300 poses";
 }
 
-TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
-  const HapticScene scene = scene_of(
-      "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
-      "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n");
-  ClearanceCurve curve(scene, 1500);
-  for (int i = 0; i < 1500; ++i)
-    curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.01 + 2e-6 * i}), {}, {});
-  const PlotSeries series = curve.take("way");
-  ASSERT_EQ(series.x.size(), 500u) << "one of three";
-  for (std::size_t i = 0; i < series.x.size(); ++i) {
-    const double gap_um = 2e3 * series.x[i];
-    EXPECT_NEAR(series.x[i], 3e-3 * static_cast<double>(i), 1e-9);
-    if (gap_um < 2e3 - 1.0) {
-      EXPECT_NEAR(series.y[i], gap_um, 1e-6) << i;
-    }
-    if (gap_um > 2e3 + 1.0) {
-      EXPECT_TRUE(std::isnan(series.y[i])) << i;
-    }
+TEST(LeastClearance, OfASimulationIsThatOfEachPartAmongTheOthers) {
+  const Scene scene = parse_scene(
+      "objects:\n"
+      "  - {name: left, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
+      "  - {name: right, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}, pose: "
+      "{position_m: [0.022, 0, 0]}}\n"
+      "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}, pose: {position_m: [0, 0, -0.011]}}\n",
+      "scene", ".");
+  Simulation simulation(scene);
+  LeastClearance of_left(simulation.bodies(), 0);
+  LeastClearance of_right(simulation.bodies(), 1);
+  for (int ms = 0; ms < 50; ++ms) {
+    const std::vector<Isometry3d> ghosts{Isometry3d::Identity(), pose({0.022 - 2e-5 * ms, 0.0, 0.0})};
+    simulation.advance(ghosts);
+    of_left.note(simulation);
+    of_right.note(simulation);
   }
-}
-
-TEST(ClearanceCurve, IsThatOfEachPartAmongTheOthers) {
-  const std::string box = ", movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n";
-  const HapticScene scene = scene_of("  - {name: left" + box + "  - {name: right" + box +
-                                         "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n",
-                                     {"left", "right"});
-  ClearanceCurve left(scene, 10, 0);
-  ClearanceCurve right(scene, 10, 1);
-  for (int i = 0; i < 10; ++i) {
-    const Isometry3d X_WLeft = pose({0.0, 0.0, 0.01 + 0.3e-3});
-    const Isometry3d X_WRight = pose({0.02 + 0.1e-3 * i, 0.0, 0.01 + 0.5e-3});
-    left.note(std::chrono::milliseconds(i), X_WLeft, std::span(&X_WRight, 1));
-    right.note(std::chrono::milliseconds(i), X_WRight, std::span(&X_WLeft, 1));
+  of_left.finish();
+  of_right.finish();
+  const double gap = simulation.X_WV(1).translation().x() - 0.02;
+  EXPECT_NEAR(gap, 1.02e-3, 1e-6);
+  EXPECT_NEAR(of_left.least(), 1e-3, 1e-12) << "the plate";
+  EXPECT_NEAR(of_right.least(), 1e-3, 1e-12) << "the plate";
+  for (int ms = 0; ms < 20; ++ms) {
+    simulation.advance(std::vector<Isometry3d>{Isometry3d::Identity(), pose({0.0205, 0.0, 0.0})});
+    of_left.note(simulation);
   }
-  const PlotSeries of_left = left.take("left");
-  const PlotSeries of_right = right.take("right");
-  for (std::size_t i = 0; i < 10; ++i) {
-    EXPECT_NEAR(of_left.y[i], std::min(100.0 * static_cast<double>(i), 300.0), 1e-6) << "the right box, then the plate";
-    EXPECT_NEAR(of_right.y[i], std::min(100.0 * static_cast<double>(i), 500.0), 1e-6) << "the left box, then the plate";
-  }
-}
-
-TEST(ClearanceCurve, IsSearchedAtMost500Times) {
-  const HapticScene scene = scene_of(kBoxOnFloor);
-  const auto searches = [&](int poses) {
-    ClearanceCurve curve(scene, poses);
-    for (int i = 0; i < poses; ++i)
-      curve.note(std::chrono::milliseconds(i), pose({0.0, 0.0, 0.03}), {}, {});
-    return curve.take("way").x.size();
-  };
-  EXPECT_EQ(searches(1), 1u);
-  EXPECT_EQ(searches(500), 500u);
-  EXPECT_EQ(searches(501), 251u);
-  EXPECT_EQ(searches(999), 500u);
-  EXPECT_EQ(searches(1001), 334u);
-}
-
-TEST(ClearanceCurve, IsThatOfAFullSearchAtEveryMoment) {
-  HapticScene scene = scene_of(kThings);
-  scene.moving.push_back({std::make_shared<const contact::SlidingPart>(
-                              std::make_shared<const geometry::TriangleMesh>(scene.parts.front().part_V->tree.mesh())),
-                          geometry::PoseTrajectory({{std::chrono::nanoseconds(0), Isometry3d::Identity()}})});
-  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    test_support::RandomNumbers random(seed);
-    constexpr int kPoses = 100;
-    ClearanceCurve curve(scene, kPoses);
-    std::vector<Isometry3d> X_WV;
-    std::vector<Isometry3d> X_WM;
-    // From one body to another, so that the nearest one changes, and with leaps between neighboring poses.
-    Eigen::Quaterniond q(random.rotation());
-    for (int i = 0; i < kPoses; ++i) {
-      const double turn = 0.1 * i;
-      const Vector3d p =
-          Vector3d(0.06 + 0.06 * std::cos(turn), 0.08 + 0.08 * std::sin(turn), 0.0) + random.point(0.003);
-      q = Eigen::Quaterniond(Eigen::AngleAxisd(random.uniform(0.0, 0.2), random.direction())) * q;
-      X_WV.push_back(pose(p, q.normalized()));
-      X_WM.push_back(pose({-0.1 + 0.001 * i, -0.05, 0.02}));
-      curve.note(std::chrono::milliseconds(i), X_WV.back(), std::span(&X_WM.back(), 1), {});
-    }
-    const PlotSeries series = curve.take("way");
-    ASSERT_EQ(series.y.size(), X_WV.size());
-    int near = 0;
-    for (std::size_t i = 0; i < X_WV.size(); ++i) {
-      const double least = std::isnan(series.y[i]) ? ClearanceCurve::kFarthest_m : 1e-6 * series.y[i];
-      const std::span<const Isometry3d> moving(&X_WM[i], 1);
-      if (least < ClearanceCurve::kFarthest_m) {
-        ++near;
-        EXPECT_TRUE(is_within(least + 1e-12, scene, X_WV[i], moving)) << i;
-      }
-      if (least > 0.0) {
-        EXPECT_FALSE(is_within(least - 1e-12, scene, X_WV[i], moving)) << i;
-      }
-    }
-    EXPECT_GT(near, 10);
-  }
-}
-
-TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
-  const HapticScene scene = scene_of(
-      "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
-      "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"
-      "  - {name: wall, shape: {type: box}, pose: {position_m: [0.060008, 0, 0.06]}}\n");
-  contact::Contact contact{};
-  contact.kind = contact::ContactKind::kFaceVertex;
-  contact.obstacle = contact.obstacle_triangle = contact.part_triangle = 0;
-  contact.n_W = Eigen::Vector3d::UnitZ();
-  contact.p_W = Eigen::Vector3d::Zero();
-  ClearanceCurve with(scene, 100);
-  ClearanceCurve without(scene, 100);
-  for (int i = 0; i < 100; ++i) {
-    // Sinks to the plate, and moves away from the wall, which is nearer at first.
-    const Eigen::Isometry3d X_WV = pose({-0.2e-6 * i, 0.0, 0.01 + 30e-6 - 0.29e-6 * i});
-    contact.gap = X_WV.translation().z() - 0.01;
-    with.note(std::chrono::milliseconds(i), X_WV, {}, std::vector{contact});
-    without.note(std::chrono::milliseconds(i), X_WV, {}, {});
-  }
-  const PlotSeries faster = with.take("way");
-  const PlotSeries slower = without.take("way");
-  ASSERT_EQ(faster.y.size(), slower.y.size());
-  for (std::size_t i = 0; i < faster.y.size(); ++i)
-    EXPECT_NEAR(faster.y[i], slower.y[i], 1e-6) << i;
-  EXPECT_NEAR(faster.y.front(), 8.0, 1e-3) << "the wall";
-  EXPECT_NEAR(faster.y.back(), 30.0 - 0.29 * 99, 1e-3) << "the plate";
+  of_left.finish();
+  EXPECT_NEAR(of_left.least(), simulation.X_WV(1).translation().x() - 0.02, 1e-12) << "the other box";
 }
 
 }  // namespace
-}  // namespace glissade::apps
+}  // namespace glissade::simulation
