@@ -23,7 +23,7 @@ class CertifiedBodies {
  public:
   /// `margin` (metres) is the gap to all other bodies at which the caller should stop the movers. A certified motion
   /// keeps a gap of at least kMinClearanceOfMargin × `margin`. Throws std::invalid_argument if there is no mover. Also
-  /// throws for the bodies, poses and margins for which `MultiPartSliding` throws.
+  /// throws for bodies, poses and margins that `MultiPartSliding` refuses.
   CertifiedBodies(std::vector<Obstacle> fixed, std::vector<std::shared_ptr<const SlidingPart>> objects,
                   const std::vector<std::shared_ptr<const SlidingPart>>& movers, double margin);
   CertifiedBodies(CertifiedBodies&&) noexcept;
@@ -34,7 +34,7 @@ class CertifiedBodies {
   std::size_t object_count() const;
   std::size_t mover_count() const;
   double margin() const;
-  /// The largest of these margins: `margin()` and the margins of the obstacles.
+  /// The largest of `margin()` and the margins of the obstacles.
   double greatest_margin() const;
 
   /// Places an object or all movers at rigid poses. The path from the old poses is not examined. The pose of mover i is
@@ -47,8 +47,8 @@ class CertifiedBodies {
   bool is_free() const;
 
   /// Finds all surfaces within reach[i] (metres, at most 50 mm) of each mover i. A search covers a radius larger than
-  /// the reach. Its result serves later calls until the mover has moved by the difference. So movers that hardly move
-  /// cost nothing. Throws std::invalid_argument for a pose that is not rigid.
+  /// the reach. Later calls reuse its result until the mover has moved by radius minus reach. So a mover that hardly
+  /// moves needs no search. Throws std::invalid_argument for a pose that is not rigid.
   void look(std::span<const double> reach);
   /// Number of pairs of triangles or boxes that the last search for a mover found. `find_contacts` and `certify`
   /// examine all these pairs.
@@ -64,7 +64,7 @@ class CertifiedBodies {
 
   /// Proves that `motion` from the present poses touches nothing. Returns false if no proof is found. `failures` then
   /// has the contacts that prevent the proof, at the present poses. If the result is false and `failures` is empty, the
-  /// motion is too long. A motion longer than the reach of the last `look` costs another search. No body moves.
+  /// motion is too long. A motion longer than the reach of the last `look` requires another search. No body moves.
   bool certify(const BodiesMotion& motion, std::vector<Contact>& failures);
   /// Like `certify`. Also proves that the gap of every pair of bodies never falls below the pair's margin minus
   /// `most_taken` (metres, less than `margin()`).

@@ -51,7 +51,7 @@ inline constexpr double kFarthestPoint = 10.0;
 /// A part that a hand or a script moves. V is the frame of the part. A displacement of the part is the translation of a
 /// reference point and a rotation about that point. The coupling, i.e. the virtual spring between hand and part, acts
 /// at the same point. Therefore the reference point is also called the compliance point. A force at the compliance
-/// point hardly turns the part. So a peg coupled at its tip finds its hole, whereas a peg coupled at its middle tips
+/// point hardly turns the part. So a peg coupled at its tip finds its hole, whereas a peg coupled at its middle tilts
 /// and jams. The coupling of a hand with fingers acts where the fingers grip the part (see `MultiPartSliding::grasp`),
 /// unless the constructor was given a compliance point.
 class SlidingPart : public ContactBody {
@@ -61,7 +61,7 @@ class SlidingPart : public ContactBody {
   explicit SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
 
   /// The compliance point is `p_Vref` (metres). Also throws std::invalid_argument if `p_Vref` is not finite, or if its
-  /// distance from the centre of the bounding box exceeds kFarthestPoint times the distance of the farthest vertex.
+  /// distance from the centre of the bounding box exceeds kFarthestPoint times that of the farthest vertex.
   SlidingPart(const std::shared_ptr<const geometry::TriangleMesh>& mesh, const Eigen::Vector3d& p_Vref);
 
   const Eigen::Vector3d& p_Vref() const { return p_Vref_; }

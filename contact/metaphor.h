@@ -24,7 +24,7 @@ enum class Metaphor : std::uint8_t {
 /// The effect of a metaphor on the part.
 struct MetaphorTraits {
   std::string_view name;      ///< the name on the command line
-  bool limits_speed = false;  ///< in 1 ms, the lag changes by at most kSlew_m (`spring.h`) plus the ghost's motion
+  bool limits_speed = false;  ///< the lag changes in 1 ms by at most kSlew_m (`spring.h`) plus the ghost's motion
   bool turns_part = true;     ///< the ghost turns the part; if false, only contacts turn it
   bool makes_up = true;       ///< the part makes up for prevented motion as soon as contacts allow it
 };

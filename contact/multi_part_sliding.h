@@ -3,14 +3,14 @@
 /// Sliding contact of several parts at once (§3 of the founding paper, *Natural Interaction in Virtual Environments*).
 /// A hand or a script (poses given over time) holds each part. The ghost of a part is the pose that the part would have
 /// if nothing were in the way. Each visible part follows its ghost as closely as the obstacles and the other parts
-/// allow. If a part touches no other body at the start, it never penetrates one, at rest or in motion. If
-/// a part touches or overlaps a body at the start, the part never gets deeper into this body.
+/// allow. If a part touches no other body at the start, it never penetrates one, at rest or in motion. If a part
+/// touches or overlaps a body at the start, the part gets hardly any deeper into this body (see `OverlapRule`).
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the
-/// contacts with a gap below the reach, i.e. the radius of the search. The cycle then projects the wanted displacements
-/// of the parts on the displacements that these contacts allow, in the metric of the coupling stiffness. The result is
-/// a step. The parts take the step only with a certificate, i.e. a proof that every triangle pair within reach stays
-/// apart on the whole path.
+/// contacts whose gaps are below a limit, the reach. The cycle then projects the wanted displacements of the parts on
+/// the displacements that these contacts allow, in the metric of the coupling stiffness. The result is a step. The
+/// parts take the step only with a certificate, i.e. a proof that every triangle pair within reach stays apart on the
+/// whole path.
 ///
 /// The paper instead finds the instant of contact by bisection, and derives a new direction from the contact. At this
 /// instant the gap is zero. An exact intersection test already reports a collision at gap zero, so no further motion is
@@ -49,12 +49,12 @@ std::optional<geometry::TriangleMesh> inset_mesh(const SlidingPart& part_V, doub
 bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
 
 /// The simulation of up to kMaxParts parts among fixed obstacles and riders. Riders are bodies that obstruct parts or
-/// move with a part, for example the segments of a hand. Deterministic: the same calls give the same bits. Not
-/// thread-safe; several simulations may share bodies.
+/// move with a part, for example the segments of a hand. Deterministic: the same calls give bit-identical results. Not
+/// thread-safe. However, several simulations may share bodies.
 class MultiPartSliding {
  public:
-  /// The riders of `chains` are absent until `place_riders`. Bodies closer than the rounding of their coordinates count
-  /// as touching. Throws std::invalid_argument for:
+  /// The riders of `chains` are absent until `place_riders`. Bodies whose distance is below the rounding error of their
+  /// coordinates count as touching. Throws std::invalid_argument for:
   /// - no part, or more than kMaxParts parts
   /// - a single part without obstacles and riders
   /// - null pointers
@@ -74,14 +74,13 @@ class MultiPartSliding {
   /// (half of kSlew_m, `spring.h`), so neither part nor force jumps. The part must not be scripted.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG);
   /// Like the other `grasp`. `p_Vref` (metres) replaces the part's own compliance point until the part is released or
-  /// grasped anew. `p_Vref` must be within kFarthestPoint radii of the part's own point. A part that is already held
-  /// under force feedback keeps the wrench of its coupling, so a new `p_Vref` moves the target.
+  /// grasped anew. `p_Vref` must be within kFarthestPoint radii of the part's own point. If the part is already held
+  /// under force feedback, a new `p_Vref` moves the target such that the wrench of the coupling stays the same.
   void grasp(std::size_t part, const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
   void release(std::size_t part);
 
-  /// Places the bodies of a rider chain: one pose X_WB for each body. The caller must ensure that the riders
-  /// collide with nothing on their way. The riders of an attached chain keep these poses relative to their part from
-  /// now on.
+  /// Places the bodies of a rider chain: one pose X_WB for each body. The caller must ensure that the riders collide
+  /// with nothing on their way. From now on, the riders of an attached chain keep these poses relative to their part.
   void place_riders(std::size_t chain, std::span<const Eigen::Isometry3d> X_WB);
   /// Detaches and removes a chain. The chain is absent until the next `place_riders`.
   void remove_riders(std::size_t chain);
@@ -92,10 +91,10 @@ class MultiPartSliding {
   void detach(std::size_t chain);
 
   /// Like `Sliding::advance`, for all parts at once. X_WG must have one pose for each part. The poses of scripted parts
-  /// are ignored. The scripts advance by `milliseconds` even while nothing else moves. A call that uses up its work
+  /// are ignored. The scripts advance by `milliseconds` even while nothing else moves. A call that uses up its budget
   /// (`SlidingRules::work_budget`) leaves the parts at the last certified poses and sets `SlidingResult::ended_early`.
-  /// If such a call ends within a cycle, the next call first completes this cycle with the old ghosts. Then the next
-  /// call goes on with the new ghosts.
+  /// If such a call ends within a cycle, the next call first completes this cycle with the old ghosts, and then goes on
+  /// with the new ghosts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
   /// Whether the last call ended within a cycle. The next `advance` completes this cycle. Any other call that changes
   /// the simulation abandons this cycle.
@@ -113,7 +112,7 @@ class MultiPartSliding {
   /// the part is released, the result is the part's own compliance point.
   const Eigen::Vector3d& p_Vref(std::size_t part) const;
   const CouplingStiffness& stiffness(std::size_t part) const;
-  /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
+  /// The gap (metres) at which contacts stop the part, except contacts with obstacles that have their own margin.
   double margin(std::size_t part) const;
   /// Whether a script moves the part.
   bool is_scripted(std::size_t part) const;
@@ -123,8 +122,8 @@ class MultiPartSliding {
 
   const SearchStatistics& search_statistics() const;
   const CallStatistics& call_statistics() const;
-  /// The number (from 1) of the newest call of `advance` with a complete cycle for its ghosts; 0 before the first call.
-  /// This call is the last call unless a call ended early.
+  /// The number (from 1) of the newest call of `advance` whose ghosts have had a complete cycle; 0 before the first
+  /// call. It is the number of the last call unless a call ended early.
   std::int64_t answered_call() const;
 
  private:

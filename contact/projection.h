@@ -23,7 +23,7 @@ namespace glissade::contact {
 struct ConstraintRow {
   Eigen::Vector3d n;  ///< unit normal, from the obstacle to the part, world axes
   Eigen::Vector3d r;  ///< from the reference point to the contact point, world axes, metres
-  double bound;       ///< metres; at most 0 if the constraint allows standing still
+  double bound;       ///< right side of the constraint, metres; at most 0 if standing still is allowed
 
   /// The left side of the constraint: the motion of the contact point along n, in metres.
   double velocity(const geometry::Displacement& d) const { return n.dot(d.v + d.w.cross(r)); }
@@ -33,7 +33,7 @@ struct ConstraintRow {
 /// `part` relative to `other`.
 struct CoupledRow : ConstraintRow {
   std::int32_t part = 0;
-  std::int32_t other = -1;                            ///< number of the other part; −1: an obstacle
+  std::int32_t other = -1;                            ///< number of the other part; −1 for an obstacle
   Eigen::Vector3d r_other = Eigen::Vector3d::Zero();  ///< like r, for the other part
 
   double velocity(std::span<const geometry::Displacement> d) const {

@@ -24,8 +24,8 @@ struct SlidingOptions {
   SlidingRules rules{};
 };
 
-/// A part that moves by a script, for example in the other hand. The script gives the poses of the part's ghost over
-/// time. The part follows the script as far as contacts allow.
+/// A part that a script moves, for example a part in the other hand. The script gives the poses of the part's ghost
+/// over time. The part follows the script as far as contacts allow.
 struct ScriptedPart {
   std::shared_ptr<const SlidingPart> part_B;
   geometry::PoseTrajectory script_X_WB;
@@ -41,8 +41,8 @@ struct ScriptedPart {
 HeldPart held_by_script(const ScriptedPart& part);
 
 /// The simulation of one part among fixed obstacles and scripted parts. In the underlying `MultiPartSliding`, the part
-/// has number 0, and the scripted parts follow. Deterministic: the same calls give the same bits. Not thread-safe;
-/// several simulations may share bodies.
+/// has number 0, and the scripted parts follow. Deterministic: the same calls give bit-identical results. Not
+/// thread-safe. However, several simulations may share bodies.
 class Sliding {
  public:
   /// Throws what the constructor of `MultiPartSliding` throws.
@@ -69,14 +69,14 @@ class Sliding {
   /// Moves the visible part towards its target (`SlidingResult::X_WT`) for the ghost at X_WG. Call this once per
   /// millisecond of motion. `geometry::rigid_pose` corrects X_WG to a rotation and translation. The part stands still
   /// if `rigid_pose` rejects X_WG or if the part is released. `milliseconds` (finite and not negative) is the time
-  /// between the ghost poses of the last call and of this call. A caller that is late passes the whole time, so that
-  /// the part catches up. Scripts always advance by `milliseconds`.
+  /// between the ghost poses of the last call and of this call. A late caller passes the full elapsed time, so that the
+  /// part catches up. Scripts always advance by `milliseconds`.
   const SlidingResult& advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0);
 
   const SlidingResult& result() const { return sliding_.result(0); }
   const SlidingPart& part() const { return sliding_.part(0); }
   const CouplingStiffness& stiffness() const { return sliding_.stiffness(0); }
-  /// The gap (metres) at which contacts with obstacles that have no margin of their own stop the part.
+  /// The gap (metres) at which contacts stop the part, except contacts with obstacles that have their own margin.
   double margin() const { return sliding_.margin(0); }
   /// See `MultiPartSliding::lag`.
   geometry::Displacement lag() const { return sliding_.lag(0); }
@@ -85,8 +85,8 @@ class Sliding {
   const SearchStatistics& search_statistics() const { return sliding_.search_statistics(); }
   const CallStatistics& call_statistics() const { return sliding_.call_statistics(); }
 
-  /// The minimum clearance (metres). In every step, the part provably keeps this distance from obstacles that have no
-  /// margin of their own. A step that starts nearer to an obstacle keeps 95 % of its initial distance.
+  /// The minimum clearance (metres). In every step, the part provably keeps this distance from obstacles, except
+  /// obstacles that have their own margin. A step that starts nearer to an obstacle keeps 95 % of its initial distance.
   double min_clearance() const { return kMinClearanceOfMargin * margin(); }
 
  private:

@@ -44,7 +44,7 @@ struct Contact {
   std::int32_t obstacle;
   std::int32_t obstacle_triangle;
   Eigen::Vector3d n_W;  ///< unit normal, from the obstacle to the part
-  Eigen::Vector3d p_W;  ///< the contact point on the part, metres; for kOverlap the part's reference point
+  Eigen::Vector3d p_W;  ///< contact point on the part (kOverlap: the part's reference point), metres
   double gap;           ///< metres; negative only for kOverlap
   double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
   /// Numbers of the two features. A face has the number of its triangle. An edge has its number in
@@ -59,7 +59,7 @@ struct Contact {
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, perpendicular to n_W
   /// The gap (metres) at which the contact stops the part. This is the margin of the two bodies, or less if there is
   /// not enough room. With the paper's method, `margin` is the largest gap of a reported contact: 2 µm, i.e. 4 times
-  /// the width at which a bisection ends. Contacts of the paper's method stop the part at half of this width.
+  /// the final width of a bisection. Contacts of the paper's method stop the part at half the final width.
   double margin = 0.0;
   /// The contact is valid until the part has moved by this distance (metres) across n_W. After a longer motion, the
   /// contact point may have left one of the two features. `range` is infinite if no rim of the features is near. An
@@ -87,17 +87,17 @@ struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();  ///< the target
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part
-  /// The visible part before the last step. With this pose, a caller can reconstruct the path of the last step only.
-  /// The paper's method does not set this pose.
+  /// The visible part before the last step. From this pose, a caller can reconstruct the path of the last step, but not
+  /// of earlier steps. The paper's method does not set this pose.
   Eigen::Isometry3d X_WV_before_step = Eigen::Isometry3d::Identity();
   SlidingState state = SlidingState::kFree;
   /// The contacts of the last cycle, for the part at X_WV_of_contacts. A contact pushes if its force is positive. With
   /// the paper's method or several parts, X_WV_of_contacts is X_WV. With several parts, contacts found before the last
-  /// step have been moved along with the parts. With one part, X_WV_of_contacts is X_WV_before_step in three cases, and
-  /// X_WV otherwise:
+  /// step have been moved along with the parts. With one part, X_WV_of_contacts is X_WV except in three cases, in which
+  /// it is X_WV_before_step:
   /// - The last step was short.
   /// - No contact pushed.
-  /// - The work of the call was used up.
+  /// - The work budget of the call was used up.
   std::vector<Contact> contacts;
   Eigen::Isometry3d X_WV_of_contacts = Eigen::Isometry3d::Identity();
   /// `contacts` has every contact whose gap is smaller than `reach` (metres), with the part at X_WV_of_contacts. The
@@ -105,7 +105,7 @@ struct SlidingResult {
   /// that can be reported.
   double reach = 0.0;
   int pushing = 0;  ///< number of contacts with a positive force
-  /// The call ended because its work was used up. With more work, the part would have moved farther.
+  /// The call ended because its work budget was used up. With a larger budget, the part would have moved farther.
   bool ended_early = false;
   int cycles = 0;  ///< number of cycles; with the paper's method: number of bisections
 };

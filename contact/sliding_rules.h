@@ -23,8 +23,8 @@ class SlidingPart;
 
 /// Coefficients of Coulomb friction. If both coefficients are 0, contacts push along their normals only.
 struct Friction {
-  double at_rest = 0.0;  ///< without slip, friction is at most at_rest × the normal force
-  double sliding = 0.0;  ///< while the two bodies slip; at most at_rest
+  double at_rest = 0.0;  ///< coefficient without slip: friction is at most at_rest × the normal force
+  double sliding = 0.0;  ///< coefficient while the two bodies slip; at most at_rest
 
   bool is_on() const { return at_rest > 0.0 || sliding > 0.0; }
   bool operator==(const Friction&) const = default;
@@ -34,16 +34,16 @@ struct Friction {
 /// compared to the radius of a contact search.
 inline constexpr double kGreatestMargin_m = 0.25e-3;
 
-/// Minimum clearance as a fraction of the margin. A part takes a step only if its path is certified. The certificate
-/// proves that the part keeps the minimum clearance from every other body on the whole path. A path that starts nearer
-/// to a body keeps 95 % of its initial distance.
+/// Minimum clearance as a fraction of the margin. A part takes a step only if the path of the step is certified. The
+/// certificate proves that the part keeps the minimum clearance from every other body on the whole path. A path that
+/// starts nearer to a body keeps 95 % of its initial distance.
 inline constexpr double kMinClearanceOfMargin = 0.3;
 
 /// Maximum number of parts in one simulation.
 inline constexpr std::size_t kMaxParts = 4;
 
 /// The treatment of a part that overlaps an obstacle by more than the margin at the start. Two parts must not overlap
-/// by more than the margin at the start. Smaller overlaps are always allowed. In a smaller overlap, the part may move
+/// by more than the margin at the start. Smaller overlaps are always allowed. In a smaller overlap, the part gets
 /// deeper into the other body by at most a twentieth of the margin (more at some corners, see docs/sliding.md). The
 /// part leaves the other body as soon as there is room.
 enum class OverlapRule : std::uint8_t {
@@ -75,23 +75,24 @@ struct SlidingRules {
   /// up to 1.6 mm beside the target, and tilted by up to 1.4°. A search lasts two seconds at most.
   bool spiral_search = false;
   /// A separate thread searches for near triangles in advance, so that few calls wait for a search. Set this to true
-  /// for simulations in real time. Poses and forces are the same to the bit with and without the thread.
+  /// for simulations in real time. Poses and forces are bit-identical with and without the thread.
   bool has_search_thread = false;
   /// A call also finds the contacts that the ghost may reach within this time (milliseconds) at the speed of the last
   /// call. A haptic thread then knows these contacts while it waits for the next contact set. The distance is limited
   /// to 3 mm, or less where searches find very many pairs of triangles. Finite and not negative.
   double contacts_ahead_ms = 0.0;
-  /// Number of pairs that a search may find, at least 1. If a search finds more pairs, the radius of the next searches
-  /// is halved (but not below 0.2 mm), and steps become shorter. Answers then take less time, but a fast part lags
-  /// behind its target. A search that finds more than two million pairs of triangles and boxes is repeated with a much
-  /// smaller radius. A search at the smallest radius is repeated with twice the limit of pairs.
+  /// Number of pairs that a search may find, at least 1. If a search finds more pairs, the limit of the reach is halved
+  /// (but not below 0.2 mm), and steps become shorter. Calls then take less time, but a fast part lags behind its
+  /// target. A search that finds more than two million pairs of triangles and boxes is repeated with a much smaller
+  /// radius. If the radius is already the smallest, the limit of two million is doubled instead.
   std::size_t affordable_pairs = 30'000;
-  /// Largest work of the searches of one call. The cycles of one call may use the same amount in addition. If searches
+  /// Maximum work of the searches in one call. The cycles of one call may use the same amount in addition. If searches
   /// use more than half of the budget on average, the reach becomes shorter. The unit is about a nanosecond of an
-  /// ordinary processor. The work counts pairs and proofs, so no bit of a result depends on the machine's speed or
-  /// instruction set. A call ends when the work is used up, or one indivisible piece later. A piece is a projection on
-  /// the contacts, or the proof for a pair of boxes or leaves. At least 2; std::nullopt means no limit. If there is a
-  /// limit and `has_search_thread` is false, searches run in a thread that works only while the simulation waits.
+  /// ordinary processor. Work is counted in pairs and proofs, so no bit of a result depends on the machine's speed or
+  /// instruction set. A call ends when the budget is used up, or one indivisible piece of work later. Such a piece is a
+  /// projection on the contacts, or the proof for a pair of boxes or leaves. At least 2; std::nullopt means no limit.
+  /// If there is a limit and `has_search_thread` is false, searches run in a thread that works only while the
+  /// simulation waits.
   std::optional<std::int64_t> work_budget{};
 
   bool operator==(const SlidingRules&) const = default;

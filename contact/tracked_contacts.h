@@ -37,8 +37,8 @@ struct TrackedContact {
 /// the forces of all merged contacts.
 ///
 /// A contact gets its number when it first touches. The contact **keeps** its number while its force is positive or its
-/// gap is at most three margins. So the number stays the same if the gap varies about two margins. Contacts of two
-/// successive updates are the same contact, with the same number, in two cases:
+/// gap is at most three margins. So the number stays the same while the gap fluctuates around two margins. Contacts of
+/// two successive updates are the same contact, with the same number, in two cases:
 /// 1. Obstacle, kind, features and triangles are the same.
 /// 2. The old contact has no successor by case 1, and the new contact continues the old contact. A contact continues
 ///    another contact if the obstacle is the same, the normals are within 10°, the contact points on the part are at
@@ -47,9 +47,8 @@ struct TrackedContact {
 ///
 /// By case 2, a contact keeps its number when its point passes to the next triangle or edge of a flat or smooth face.
 /// When the point goes round a corner, a contact with a new number begins. If a new contact could continue several old
-/// contacts, it continues an old contact that shares a feature with it, if there is one. Among several such old
-/// contacts, the new contact continues the nearest. Among equally near old contacts, the new contact continues the
-/// oldest.
+/// contacts, three criteria select the old contact, in this order: it shares a feature with the new contact; it is the
+/// nearest; it is the oldest.
 class ContactTracker {
  public:
   /// `margin` (metres) is the margin of the simulation (see `Sliding::margin`). If obstacles have margins of their own,
@@ -79,7 +78,7 @@ class ContactTracker {
   bool touches(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 2.0 * margin_; }
   bool lasts(const Contact& contact) const { return contact.force > 0.0 || contact.gap <= 3.0 * margin_; }
 
-  /// A contact of the last update that has ended, and an upper bound (metres) of the motion of its points since then.
+  /// A contact of the last update that has ended, and an upper bound (metres) of its points' motion since that update.
   struct Ended {
     std::int32_t index;
     double travel;
@@ -116,10 +115,10 @@ struct ContactPatch {
 ///
 /// The oldest contact without a patch begins a new patch as its founder. The plane of the patch goes through the
 /// founder's contact point, perpendicular to the founder's normal. A contact with the same obstacle joins the patch if
-/// its normal is within 10° of the founder's normal and its point is within 1 % of ρ from the plane. Here ρ is the
-/// radius of the part. Distance within the plane does not matter. For example, the contacts at the four corners of a
-/// box that lies flat are one patch. A patch has the id of its founder. The patch keeps this id while the founder
-/// touches and no older contact joins.
+/// its normal is within 10° of the founder's normal and its point is within 0.01 ρ of the plane. Here ρ is the radius
+/// of the part. Distance within the plane does not matter. For example, the contacts at the four corners of a box that
+/// lies flat are one patch. A patch has the id of its founder. The patch keeps this id while the founder touches and no
+/// older contact joins.
 class ContactPatches {
  public:
   /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).
