@@ -16,7 +16,7 @@ namespace glissade::devices {
 
 /// A message and the time of its recording.
 struct LogEvent {
-  std::chrono::microseconds time{0};  ///< since an epoch, the same for all events of a log
+  std::chrono::microseconds time{0};  ///< time since an epoch, which is the same for all events of a log
   std::string channel;
   std::vector<std::uint8_t> message;
 
@@ -33,7 +33,7 @@ class EventLogWriter {
   void write(const LogEvent& event);
 
   /// Ends the log. Throws std::runtime_error, naming the file, when something could not be written, for example on a
-  /// full disk. The destructor reports no failure.
+  /// full disk. The destructor cannot report a failure.
   void close();
 
  private:
@@ -42,20 +42,20 @@ class EventLogWriter {
   std::int64_t written_ = 0;
 };
 
-/// Reads a log from the beginning to the end, or up to the first damage. A file may have any bytes. Ignores the numbers
-/// of events, so joined logs and logs with removed events are undamaged. Not thread-safe.
+/// Reads a log from the beginning to the end, or up to the first damage. The file may contain arbitrary bytes. Ignores
+/// the numbers of events, so concatenated logs and logs with removed events count as undamaged. Not thread-safe.
 class EventLogReader {
  public:
   /// Throws std::invalid_argument, naming the file, when it cannot be read or is no event log.
   explicit EventLogReader(const std::string& path);
 
-  /// The next event. No value at the end of the log and after the first damage.
+  /// The next event. Returns no value at the end of the log or after the first damage.
   std::optional<LogEvent> next();
 
   /// Number of events read so far.
   std::int64_t count() const noexcept { return count_; }
 
-  /// A sentence with the file, place and kind of the damage. It is empty if there is no damage.
+  /// A sentence that names the file, position and kind of the damage; empty if there is no damage.
   const std::string& damage() const noexcept { return damage_; }
 
  private:
@@ -63,12 +63,12 @@ class EventLogReader {
   bool read(std::size_t size, std::string& bytes);
 
   std::string path_;
-  std::vector<char> buffer_;  // of the file, which it outlives
+  std::vector<char> buffer_;  // of `file_`; the buffer outlives the file
   std::ifstream file_;
   std::int64_t size_ = 0;
   std::int64_t offset_ = 0;  ///< of the next event
   std::int64_t count_ = 0;
-  std::string ahead_;  ///< the first bytes of the next event, which show where the last one ends
+  std::string ahead_;  ///< the first bytes of the next event, which mark the end of the last event
   std::string damage_;
 };
 
@@ -87,8 +87,8 @@ LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
 LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state);
 LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);
 
-/// The content of the event. No value if the event is on another channel, or if its message fails the checks of a
-/// receiver.
+/// The decoded message of the event. Returns no value if the event is on another channel, or if its message fails the
+/// checks of a receiver.
 std::optional<GloveInfo> glove_info_of(const LogEvent& event);
 std::optional<LoggedState> glove_state_of(const LogEvent& event);
 std::optional<HapticState> haptic_state_of(const LogEvent& event);

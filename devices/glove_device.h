@@ -1,7 +1,7 @@
 #pragma once
 
 /// A force-feedback glove in the haptic loop: its state, commands and limits, and the interface of a device driver.
-/// Frames: W world, H hand root, i.e. the frame of the hand whose pose the glove reports.
+/// Frames: W world; H hand root, i.e. the frame whose pose the glove reports.
 
 #include <array>
 #include <chrono>
@@ -17,25 +17,25 @@
 
 namespace glissade::devices {
 
-/// Reasons why a command differs from the wanted command. The first seven let the force fade to zero.
+/// Reasons why the command for the device differs from the wanted command. The first seven let the force fade to zero.
 struct LimitReasons {
   bool is_stopped = false;      ///< stopped for good by an emergency stop or by the end of the program
   bool is_disabled = false;     ///< the wearer does not hold the enable switch
   bool is_refused = false;      ///< the glove obeys another server
   bool not_finite = false;      ///< a number of the wanted command or of the state is NaN or infinite
-  bool is_implausible = false;  ///< a state contradicts the descriptor or earlier states, now or shortly before
+  bool is_implausible = false;  ///< the newest or a recent state contradicts the descriptor or earlier states
   bool is_state_old = false;    ///< the newest state was measured too long ago
   bool is_command_old = false;  ///< the wanted command answers a state that is too old or does not exist
   bool is_returning = false;    ///< the force returns softly, after the start or after one of the reasons above
   bool force_limited = false;   ///< the force was scaled down to the device's maximum
   bool torque_limited = false;  ///< the torque was scaled down to the device's maximum
   bool joints_limited = false;  ///< at least one joint torque was clamped
-  bool rate_limited = false;    ///< force or torques would change faster than the device's rates
-  bool power_limited = false;   ///< the wrench was scaled down to the largest power
-  bool mean_limited = false;    ///< the force was scaled down because its mean is near the largest mean
+  bool rate_limited = false;    ///< the change of force or torques was limited to the device's rates
+  bool power_limited = false;   ///< the wrench was scaled down to the device's largest power
+  bool mean_limited = false;    ///< the force was scaled down because its mean is near the device's largest mean
   bool energy_limited = false;  ///< the wrench was scaled down because too little energy is left
 
-  /// The force fades or is zero.
+  /// Whether the force fades or has faded to zero.
   bool is_fading() const noexcept {
     return is_stopped || is_disabled || is_refused || not_finite || is_implausible || is_state_old || is_command_old;
   }
@@ -50,7 +50,7 @@ struct NamedReason {
   std::string_view name;
 };
 
-/// All reasons, the most serious first. Messages carry them as bits in this order.
+/// All reasons, the most serious first. Messages carry the reasons as bits in this order.
 inline constexpr std::array<NamedReason, 15> kLimitReasons{{{&LimitReasons::is_stopped, "stopped"},
                                                             {&LimitReasons::is_disabled, "disabled"},
                                                             {&LimitReasons::is_refused, "refused"},
@@ -79,26 +79,26 @@ struct GloveState {
   Eigen::Vector3d v_WH = Eigen::Vector3d::Zero();  ///< velocity of the origin of H, in world axes; m/s
   Eigen::Vector3d w_WH = Eigen::Vector3d::Zero();  ///< angular velocity of H, in world axes; rad/s
   hands::JointValues joint_angles{};
-  /// Number of times that the hand has closed or opened so far: odd while the hand is closed. The count keeps its
-  /// meaning when states are lost. A driver that does not detect the grip leaves it at 1.
+  /// Number of times that the hand has closed or opened so far: odd while the hand is closed. The count stays correct
+  /// when states are lost. A driver that does not detect the grip leaves it at 1.
   std::int64_t grip = 1;
   bool obeys_another = false;  ///< the glove obeys another server, and ignores the commands of this one
-  bool is_enabled = true;      ///< false while the wearer does not hold the enable switch, if the glove has one
-  /// `limits` has the reasons for which the envelope at the glove limited the last command. `command_age` is the time
-  /// since the measurement of the state that this command answers, i.e. the time of the whole round trip. Both are
-  /// empty for a glove in the same process.
+  bool is_enabled = true;      ///< false if the glove has an enable switch and the wearer does not hold it
+  /// `limits` has the reasons why the envelope at the glove limited the last command. `command_age` is the time since
+  /// the measurement of the state that this command answers, i.e. the time of the whole round trip. For a glove in the
+  /// same process, `limits` is empty and `command_age` is 0.
   LimitReasons limits;
   std::chrono::nanoseconds command_age{0};
   std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` at the glove
   double energy = 0.0;                     ///< `SafeCommand::energy` of the last command, J
-  /// `SafeCommand::taken` of the last command, J; none for a glove in the same process.
+  /// `SafeCommand::taken` of the last command, J; no value for a glove in the same process.
   std::optional<double> taken{};
 };
 
-/// Forces (N) and torques (Nm) wanted from the glove, zero by default. No device takes a command of this type:
-/// `SafetyEnvelope` makes a `SafeCommand` of it.
+/// Forces (N) and torques (Nm) wanted from the glove, zero by default. A command answers the state from which it was
+/// computed. Devices do not take a `GloveCommand`: `SafetyEnvelope` turns it into a `SafeCommand`.
 struct GloveCommand {
-  std::int64_t session = 0;                         ///< session of the sender, set by the receiver; 0 in one process
+  std::int64_t session = 0;                         ///< session of the sender, set by the receiver; 0 without a link
   std::int64_t sequence = 0;                        ///< ≥ 0, increases with every command
   std::int64_t state_sequence = 0;                  ///< `GloveState::sequence` of the state that the command answers
   std::chrono::nanoseconds state_time{0};           ///< `GloveState::time` of this state, on the glove's clock
@@ -106,15 +106,15 @@ struct GloveCommand {
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   hands::JointValues joint_torques{};               ///< positive toward larger joint angles
-  /// Total energy (J) so far that independently moving bodies, such as a part in another hand, have given to this hand.
-  /// The energy that these bodies ask back is subtracted. The hand's work against force that was withheld is added.
-  /// When `supply` rises, the envelope lets force and torque give the hand as much more. When `supply` falls, the hand
-  /// gives up the energy that it can spare (`GloveState::taken`).
+  /// Total energy (J) that independently moving bodies, such as a part in another hand, have given to this hand so far,
+  /// minus the energy that they have requested back, plus the hand's work against withheld force. When `supply` rises,
+  /// force and torque are allowed to give the hand the same amount of energy. When `supply` falls, the hand gives up as
+  /// much of this amount as it can spare (`GloveState::taken`).
   double supply = 0.0;
 };
 
-/// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, Nm s/rad, rad, m, s, Hz.
-/// Required: `max_force`, `max_torque`, `max_stiffness` and `max_rotational_stiffness`. With 0, the hand feels nothing.
+/// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, Nm s/rad, rad, m, s, Hz. Required:
+/// `max_force`, `max_torque`, `max_stiffness` and `max_rotational_stiffness`. By default, the hand feels nothing.
 struct DeviceDescriptor {
   std::string name;
   double max_force = 0.0;                 ///< largest norm of the force on the hand
@@ -123,48 +123,48 @@ struct DeviceDescriptor {
   double max_rotational_stiffness = 0.0;  ///< largest rotational stiffness rendered without shaking
   double max_damping = 0.0;               ///< largest translational damping rendered without shaking
   double max_joint_torque = 0.0;          ///< largest torque of each joint
-  /// The properties of the device alone, without forces and without a hand. They determine the stiffness that the
-  /// device can render passively (`passive_stiffness`, `finger_stiffness`). 0 means not known, so the descriptor of a
-  /// device with hardly any damping must have a small positive number.
+  /// The properties of the bare device, without commanded forces and without a hand. They determine the stiffness that
+  /// the device can render passively (`passive_stiffness`, `finger_stiffness`). 0 means not known, so set a small
+  /// positive number for a device with hardly any damping.
   double damping = 0.0;               ///< viscous friction against translation
   double rotational_damping = 0.0;    ///< viscous friction against rotation
   double joint_damping = 0.0;         ///< viscous friction of each finger joint
   double friction = 0.0;              ///< Coulomb friction against translation, N
   double joint_friction = 0.0;        ///< Coulomb friction of each finger joint, Nm
-  double resolution = 0.0;            ///< smallest step, or standard deviation, of the measured position
-  double joint_resolution = 0.0;      ///< smallest step of the measured joint angles
-  std::chrono::nanoseconds delay{0};  ///< from the measurement to the force, in addition to the period and the link
-  /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). If a rate is 0, force and
-  /// torque may rise from zero to the maximum in seven periods of the device, and joint torques in two
+  double resolution = 0.0;            ///< step of the measured position, or standard deviation of its noise
+  double joint_resolution = 0.0;      ///< step of the measured joint angles
+  std::chrono::nanoseconds delay{0};  ///< time from measurement to force, in addition to the period and the link
+  /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). A rate of 0 stands for the
+  /// default: from zero to the maximum in seven periods of the device, or in two periods for joint torques
   /// (`joint_torque_rate`).
   double max_force_rate = 0.0;
   double max_torque_rate = 0.0;
   double max_joint_torque_rate = 0.0;
   double max_power = 50.0;             ///< largest power that force and torque put into the hand
-  double max_mean_force = 0.0;         ///< largest mean of the force's norm over about ten seconds; 0: `max_force`
-  double max_speed = 10.0;             ///< a greater measured speed is an error of the tracker, m/s
-  double max_turn_rate = 100.0;        ///< a greater measured angular speed is an error of the tracker, rad/s
-  double workspace_radius = 1000.0;    ///< a greater distance from the world's origin is an error of the tracker
-  std::chrono::nanoseconds frozen{0};  ///< a pose that repeats bit by bit for longer is an error; 0: not checked
+  double max_mean_force = 0.0;         ///< largest mean of the force's norm over about ten seconds; 0 means `max_force`
+  double max_speed = 10.0;             ///< largest plausible speed; a greater one is a tracker error, m/s
+  double max_turn_rate = 100.0;        ///< largest plausible angular speed, rad/s
+  double workspace_radius = 1000.0;    ///< largest plausible distance from the world's origin
+  std::chrono::nanoseconds frozen{0};  ///< longest plausible time with a bit-identical pose; 0: not checked
   hands::JointValues joint_lower{};    ///< lower limits of the joint angles; both limits of an absent joint are 0
   hands::JointValues joint_upper{};    ///< upper limits of the joint angles
   double update_rate = 1000.0;         ///< updates per second
 };
 
-/// Throws std::invalid_argument, naming the device and the field, in these cases: a number is not finite; a limit with
-/// the prefix `max_` or a number of the device alone is negative; a joint's lower limit is not below its upper limit,
-/// unless both are 0; the update rate does not lie between 1 and 100,000 Hz; `frozen` or `delay` is negative.
+/// Throws std::invalid_argument, naming the device and the field, if a number is not finite; a `max_` limit,
+/// `workspace_radius` or a property of the bare device is negative; a joint's lower limit is not below its upper limit,
+/// unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is negative; or `delay` is outside 0 to 1 s.
 void validate(const DeviceDescriptor& descriptor);
 
-/// The lag (seconds) of the device's force behind the motion, in a loop of this period and behind a link of this delay.
-/// The lag is half a period, because the force is held for a period, plus the delays of device and link. If the
-/// device's period is longer, it replaces the period of the loop.
+/// The lag (seconds) of the device's force behind the motion, for a loop with `period` and a link with `link_delay`.
+/// The lag is half a period, because the force is held for a period, plus the delays of device and link. Of the periods
+/// of loop and device, the longer one counts.
 double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
               std::chrono::nanoseconds link_delay) noexcept;
 
-/// The largest stiffness that is passive with the damping `told` at this lag (seconds), i.e. the damping divided by the
-/// lag. If `told` is 0, the damping is assumed with which the device's largest stiffness `greatest` is passive without
-/// a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
+/// The largest stiffness that is passive with the reported damping `told` at this lag (seconds), i.e. damping divided
+/// by lag. If `told` is 0, assumes the damping that just makes the device's largest stiffness, `greatest`, passive
+/// without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
 double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept;
 
 /// The largest rate (Nm/s) of change of a joint torque.
@@ -173,7 +173,7 @@ double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;
 /// The identity and capabilities of a glove.
 struct GloveInfo {
   std::int64_t device = 0;   ///< number of the glove
-  std::int64_t session = 0;  ///< random number of the glove's process
+  std::int64_t session = 0;  ///< random number that the glove's process draws at its start
   hands::HandSide side = hands::HandSide::kUnknown;
   DeviceDescriptor descriptor;
 };
@@ -181,8 +181,8 @@ struct GloveInfo {
 class SafeCommand;
 
 /// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
-/// functions are wait-free, allocate nothing and make no system call. A driver that must wait for its device waits in a
-/// separate thread.
+/// functions are wait-free, allocate nothing and make no system call. A driver that must wait for its device does so in
+/// a separate thread.
 class GloveDevice {
  public:
   virtual ~GloveDevice() = default;

@@ -1,8 +1,8 @@
 #pragma once
 
-/// The state after one haptic tick, i.e. one cycle of the 1 kHz loop that computes the forces, for viewers and
-/// recorders. A part is an object that hands move. Frames: W world; V visible part, i.e. the displayed pose of the
-/// part; G ghost, i.e. the pose that the part would have if nothing were in the way.
+/// The state for viewers and recorders after one haptic tick, i.e. after one cycle of the 1 kHz loop that computes the
+/// forces. A part is an object that hands move. Frames: W world; V visible part, i.e. the displayed pose of the part; G
+/// ghost, i.e. the pose that the part would have if nothing were in the way.
 
 #include <array>
 #include <chrono>
@@ -20,8 +20,8 @@
 
 namespace glissade::devices {
 
-/// State of the part in the simulation. Messages carry the number of the state, which keeps its meaning in all
-/// versions. The target is the pose to which the hand pulls the part. A contact pushes while it exerts a force.
+/// State of the part in the simulation. Messages carry the number of the state. These numbers never change their
+/// meaning. The target is the pose to which the hand pulls the part. A contact pushes while it exerts a force.
 enum class PartState : std::int32_t {
   kUnknown = 0,     ///< the state was not reported, or its number is unknown to this program
   kReleased = 1,    ///< no hand holds the part, and the part stands still
@@ -56,10 +56,10 @@ struct HapticPartState {
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();
   Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the reference point, where the spring of each hand acts
   PartState state = PartState::kUnknown;
-  std::int32_t contact_count = 0;  ///< contacts that push
+  std::int32_t contact_count = 0;  ///< number of contacts that push
 
   bool is_in_contact() const noexcept { return contact_count > 0; }
-  /// The displacement of the reference point from the visible part to its ghost: metres, and a rotation vector.
+  /// The displacement from the visible part to its ghost: translation (metres) of `p_Vref`, and rotation vector.
   geometry::Displacement lag() const { return geometry::displacement_between(X_WV, X_WG, p_Vref); }
 };
 
@@ -70,24 +70,24 @@ struct HapticHandState {
   /// about the hand root while the hand holds nothing.
   Eigen::Vector3d force_W = Eigen::Vector3d::Zero();
   Eigen::Vector3d torque_V_W = Eigen::Vector3d::Zero();
-  /// The share of the contact force that may be exerted. The force follows this share within 75 ms. The share is less
-  /// than 1 in three cases: the contacts are old; the contacts do not hold at the hand, because the part lags behind;
-  /// or the force is still returning after one of these two cases.
+  /// The allowed share of the contact force. The exerted force follows this share within 75 ms. The share is less than
+  /// 1 in three cases: the contacts are old; the part lags so far behind the hand that its contacts are not known to
+  /// hold at the hand; or the force is still returning after one of these two cases.
   double contact_share = 1.0;
   bool are_contacts_unsolved = false;       ///< the contacts had no solution, so their force goes to zero
-  LimitReasons reasons;                     ///< why the device received less than the contacts demand
+  LimitReasons reasons;                     ///< reasons why the device received less than the contacts demand
   std::chrono::nanoseconds state_age{0};    ///< time since the measurement of the glove's state
   LimitReasons glove_reasons;               ///< `GloveState::limits`
   std::chrono::nanoseconds command_age{0};  ///< `GloveState::command_age`
   double energy = 0.0;                      ///< `SafeCommand::energy`, J
   double glove_energy = 0.0;                ///< `GloveState::energy`
-  hands::VisibleHand visible;               ///< set for a hand with fingers
-  hands::JointValues joint_torques{};       ///< Nm, as the device received them
+  hands::VisibleHand visible;               ///< valid only for a hand with fingers
+  hands::JointValues joint_torques{};       ///< torques that the device received, Nm
 };
 
-/// The energy (J) that force and torque may still give to the hand. If the glove's states report this energy, it is the
-/// value of the glove's envelope, which acts on what the hand really gets. Otherwise it is the value of the server's
-/// envelope.
+/// The energy (J) that force and torque may still give to the hand. If the glove's states report this energy, returns
+/// the value of the envelope at the glove, whose limit takes effect. Otherwise returns the value of the envelope at the
+/// server.
 inline double energy_left(const HapticHandState& hand) noexcept {
   return hand.command_age > std::chrono::nanoseconds(0) ? hand.glove_energy : hand.energy;
 }
@@ -108,12 +108,12 @@ struct HapticPatch {
   float extent = 0.0F;                            ///< distance from `p_V` to the farthest of these contacts, metres
 };
 
-/// The state after one haptic tick. Its contact set is the simulation's newest answer to the ghost poses. The set has
-/// the poses X_WV and the contacts of the parts.
+/// The state after one haptic tick. The tick used a contact set, i.e. the simulation's newest answer to the ghost
+/// poses, with the poses X_WV and the contacts of the parts.
 struct HapticState {
   std::int64_t sequence = 0;                    ///< ≥ 0, increases with every tick
   std::chrono::nanoseconds time{0};             ///< time of the tick, on the haptic loop's clock
-  std::chrono::nanoseconds contact_set_age{0};  ///< time since the ghost poses of the set; 0 before the first set
+  std::chrono::nanoseconds contact_set_age{0};  ///< age of the set's ghost poses; 0 before the first set
   bool is_contact_set_late = false;             ///< the contact set was older than 5 ms
   std::chrono::nanoseconds lateness{0};         ///< `time` minus the scheduled time of the tick
   std::chrono::nanoseconds last_duration{0};    ///< duration of the previous tick until its commands were handed over

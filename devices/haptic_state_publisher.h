@@ -1,7 +1,7 @@
 #pragma once
 
 /// Publishes the state of every tick, i.e. of every cycle of the 1 kHz haptic loop, on the LCM channel HAPTIC_STATE
-/// without delaying the loop. Viewers and recorders receive it.
+/// without delaying the loop. Viewers and recorders listen to this channel.
 
 #include <chrono>
 #include <cstddef>
@@ -24,8 +24,8 @@ class HapticStatePublisher {
 
   using Listener = std::function<void(const HapticState&)>;
 
-  /// `listener` may be empty. It receives each state in the publisher's thread, even a state that cannot be sent.
-  /// Throws std::invalid_argument when the bus is null or `capacity` is 0.
+  /// `listener` may be empty. The publisher's thread calls it with each state, even if the state cannot be sent. Throws
+  /// std::invalid_argument when the bus is null or `capacity` is 0.
   explicit HapticStatePublisher(std::shared_ptr<LcmBus> bus, Listener listener = {},
                                 std::size_t capacity = kDefaultCapacity);
   /// Publishes the states still in the ring.

@@ -6,8 +6,8 @@
 /// `memq://` connects only senders and receivers that share one LcmBus, and therefore one process. `udpm://` connects
 /// processes and hosts by UDP multicast. With `ttl=0`, as in `udpm://239.255.76.67:7667?ttl=0`, messages stay on this
 /// machine, and the bus receives only messages of this machine. With a greater ttl, the bus receives only messages that
-/// arrive on the interface to which this machine routes the group. Other LCM programs (`lcm-logger`, `lcm-spy`) can
-/// take part. The bus receives messages in one packet, and drops fragments.
+/// arrive on the interface to which this machine routes the multicast group. Other LCM programs (`lcm-logger`,
+/// `lcm-spy`) can join. The bus accepts only messages that arrive in one packet; it drops fragments.
 
 #include <array>
 #include <cstdint>
@@ -28,9 +28,9 @@ struct LcmKey {
   std::array<std::uint8_t, 32> bytes{};
 };
 
-/// Reads a key: one line of 64 hexadecimal digits, such as `openssl rand -hex 32` prints. Throws std::invalid_argument,
-/// naming the file, in these cases: the file cannot be read; it has another content; or a user other than its owner may
-/// read or write it.
+/// Reads a key: one line of 64 hexadecimal digits, as printed by `openssl rand -hex 32`. Throws std::invalid_argument,
+/// naming the file, in these cases: the file cannot be read; its format is wrong; or its permissions let a user other
+/// than the owner read or write it.
 LcmKey read_lcm_key(const std::string& path);
 
 /// Sends and receives raw messages by channel. The first subscription starts one receive thread for all subscribers.
@@ -61,16 +61,16 @@ class LcmBus {
   const std::string& url() const noexcept;
 
   /// Calls `handler` for every message on `channel`, until the returned subscription is destroyed. Throws
-  /// std::invalid_argument in these cases: the channel's name is not allowed; the handler is empty; or nothing can be
-  /// received from the URL.
+  /// std::invalid_argument in these cases: the channel's name is not allowed; the handler is empty; or the bus cannot
+  /// receive from its URL.
   [[nodiscard]] std::unique_ptr<Subscription> subscribe(const std::string& channel, Handler handler);
 
   /// Sends `message`. Returns false when the operating system does not accept the message. Over memq, a message on a
   /// channel without subscribers is lost. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, is not a
-  /// packet of a message, or has no valid code for the bus's key. Any thread.
+  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, if it is not
+  /// an unfragmented LCM message, or if it has no valid code for the bus's key. Any thread.
   std::uint64_t refused_packets() const noexcept;
 
  private:
@@ -94,15 +94,15 @@ class LcmBus::Subscription {
 /// Numbers of messages that one receiver has accepted, rejected (by reason) and missed so far.
 struct LinkStatistics {
   std::uint64_t accepted = 0;
-  std::uint64_t wrong_size = 0;       ///< the size is not that of the expected type
-  std::uint64_t undecodable = 0;      ///< the size is right, but the message has another type
-  std::uint64_t wrong_version = 0;    ///< the message has another version of the message format
-  std::uint64_t not_finite = 0;       ///< a number is NaN or infinite
-  std::uint64_t out_of_range = 0;     ///< a number is implausibly large, or a quaternion is not a unit quaternion
-  std::uint64_t other_receiver = 0;   ///< the message is for another device
-  std::uint64_t other_sender = 0;     ///< another sender holds the lease
-  std::uint64_t out_of_sequence = 0;  ///< the sequence number does not rise, or rises too fast
-  std::uint64_t lost = 0;             ///< sequence numbers missing between accepted messages
+  std::uint64_t wrong_size = 0;       ///< messages whose size is not that of the expected type
+  std::uint64_t undecodable = 0;      ///< messages of the right size, but of another type
+  std::uint64_t wrong_version = 0;    ///< messages with another version of the message format
+  std::uint64_t not_finite = 0;       ///< messages with a number that is NaN or infinite
+  std::uint64_t out_of_range = 0;     ///< messages with an implausibly large number or a non-unit quaternion
+  std::uint64_t other_receiver = 0;   ///< messages for another device
+  std::uint64_t other_sender = 0;     ///< messages of a sender that does not hold the lease
+  std::uint64_t out_of_sequence = 0;  ///< messages whose sequence number does not rise, or rises too fast
+  std::uint64_t lost = 0;             ///< sequence numbers that are missing between accepted messages
 
   std::uint64_t rejected() const noexcept {
     return wrong_size + undecodable + wrong_version + not_finite + out_of_range + other_receiver + other_sender +
@@ -110,7 +110,7 @@ struct LinkStatistics {
   }
 };
 
-/// The reasons for which messages were rejected because of their contents, such as "a number is not finite".
+/// The defects in the contents of rejected messages, such as "a number is not finite".
 std::vector<std::string> refusals_of(const LinkStatistics& link);
 
 }  // namespace glissade::devices

@@ -3,8 +3,8 @@
 /// The two ends of a glove's LCM link: `LcmGlove` for the server, i.e. the program with the haptic loop, and
 /// `LcmGloveHost` for the program that drives the glove.
 ///
-/// Each end has a session, i.e. a random number drawn at its start. Each end obeys one sender at a time. This sender
-/// holds the lease. Another sender gets the lease only after the holder has been silent for `lease`. Until then,
+/// Each end has a session, i.e. a random number drawn at its start. Each end obeys one sender at a time, the holder of
+/// the lease. Another sender gets the lease only after the holder has been silent for the time `lease`. Until then,
 /// messages of the other sender are counted in `LinkStatistics::other_sender`.
 
 #include <atomic>
@@ -109,15 +109,15 @@ class LcmGlove final : public GloveDevice {
 struct LcmGloveHostOptions {
   std::int64_t device = kDefaultDevice;  ///< number of this glove; commands to other gloves are rejected
   hands::HandSide side = hands::HandSide::kUnknown;
-  /// The greatest age, in periods, of the state that a command answers. This age includes the way to the server and
-  /// back. When the state is older, the force fades. The period is that of the device, but at least a millisecond.
+  /// The largest allowed age, in periods, of the state that a command answers. This age includes the way to the server
+  /// and back. If the state is older, the force fades. A period is that of the device, but at least 1 ms.
   double patience_periods = 6.0;
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
 /// The glove driver's end of the link. It announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
-/// commands on GLOVE_COMMAND. A second envelope limits each command here. Thread-safety: one thread, the driver's,
-/// calls `publish` and `newest_command`.
+/// commands on GLOVE_COMMAND. At this end, a second envelope limits each command. Thread-safety: one thread, the
+/// driver's, calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, or the descriptor is not valid.
@@ -125,12 +125,12 @@ class LcmGloveHost {
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state` together with the outcome of the last `newest_command`. Also sends the announcement when it is due.
-  /// Returns false when the operating system does not accept the state. May block.
+  /// Sends `state` together with the envelope's results of the last `newest_command`. Also sends the announcement when
+  /// it is due. Returns false when the operating system does not accept the state. May block.
   bool publish(const GloveState& state);
 
-  /// The command for the device in this period. Call this function once a period. `newest` is the state measured last.
-  /// There is no force without a command, or if the newest command is old. Wait-free.
+  /// The command for the device in this period. Call this function once a period. `newest` is the newest measured
+  /// state. The force is zero before the first command, and fades if the newest command is old. Wait-free.
   SafeCommand newest_command(const GloveState& newest) noexcept;
 
   /// Emergency stop: the force fades to zero and stays there. Wait-free, any thread.

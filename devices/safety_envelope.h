@@ -26,7 +26,7 @@ class SafeCommand {
   std::chrono::nanoseconds state_age() const noexcept { return state_age_; }
   /// Energy (J) that force and torque may still give to the hand; see `SafetyEnvelope`.
   double energy() const noexcept { return energy_; }
-  /// Energy (J) that the hand has given up for others since the last interruption; see `GloveState::taken`.
+  /// Energy (J) that the hand has given up on request since the last interruption; see `GloveCommand::supply`.
   double taken() const noexcept { return taken_; }
 
  private:
@@ -50,45 +50,45 @@ std::string to_text(const SafeCommand& command);
 /// call it once a period.
 ///
 /// Ages count from the measurement times in the states. The clocks of glove and caller may differ. The fastest message
-/// so far gives the difference of the clocks, which may grow by 0.2 ms a second. The difference is determined anew in
-/// two cases: all states within a second are late although their times advance; or the glove's clock goes back.
+/// so far gives the difference of the clocks, which is allowed to grow by 0.2 ms/s. The difference is determined anew
+/// in two cases: all states within a second are late although their times advance; or the glove's clock goes back.
 ///
-/// A passivity observer computes the work of force and torque on the hand from the measured motion and from the
-/// commands after all limits. Each command acts from the delay of the device on until the next command acts, for at
-/// most 10 ms. The available energy is what the hand has put in and not got back, plus 0.1 J at the start for errors of
-/// sampling. It is at most about 0.25 m times the largest force. Joint torques are not counted. The wrench is a
-/// continuous function of the energy and the velocity. The remaining energy must suffice to bring the wrench to zero as
-/// a spring does that the device renders passively; docs/safety.md has the derivation. At the end of a contact, the
-/// energy falls to at most 0.1 J. Energy below 0.1 J, or below what the wanted wrench needs, recovers. The rate is 0.3
-/// W without a contact, lower in a trembling contact, and higher in a calm contact and after an interruption. The
-/// recovery is at most 1 J, which refills at 0.25 W; docs/safety.md has the conditions. For a glove that reports the
-/// delay of its link, only the envelope at the glove's end limits the energy. So no delay and no error of the
-/// simulation can feed a fast oscillation that pushes both ways with more than 20 mW, and a hand at rest feels no jump.
-/// Source of the observer: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of
-/// wrenches that shrink with the energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral
-/// telemanipulation with time delays: a two-layer approach combining passivity and transparency, 2011.
+/// A passivity observer computes the work of force and torque on the hand from the measured motion and the commands
+/// after all limits. A command counts from the delay of the device on until the next command acts, for at most max(10
+/// ms, two periods). The available energy is 0.1 J at the start (for sampling errors), plus what the hand has put in,
+/// minus what it has got back. Its maximum is about 0.25 m times the largest force. Joint torques do not count. The
+/// wrench is a continuous function of energy and velocity. The remaining energy must suffice to let the wrench fall to
+/// zero like that of a spring that the device renders passively (derivation: docs/safety.md). At the end of a contact,
+/// the energy falls to at most 0.1 J. Energy below 0.1 J, or below the need of the wanted wrench, recovers: at 0.3 W
+/// without a contact, more slowly in a trembling contact, and faster in a calm contact or after an interruption
+/// (conditions: docs/safety.md). All recovery draws on a budget of 1 J, which refills at 0.25 W. For a glove that
+/// reports the delay of its link, only the envelope at the glove's end limits the energy. So no delay and no error of
+/// the simulation can sustain a fast oscillation that pushes both ways and gives more than 20 mW, and a hand at rest
+/// feels no jump. Source of the observer: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002.
+/// Source of wrenches that shrink with the energy in a tank, and of tanks that exchange energy: Franken et al.,
+/// Bilateral telemanipulation with time delays: a two-layer approach combining passivity and transparency, 2011.
 ///
-/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`
-/// counts as energy that the hand has put in, in proportion to the share of the wanted wrench that was exerted. It
-/// counts at most as the largest power of the device times the time since the last command. When `supply` falls, others
-/// ask for energy. The hand gives up only energy beyond 0.1 J that the wanted wrench does not need, so no force
-/// shrinks. The rest of the request is forgotten within some seconds. `SafeCommand::taken` is the energy given up.
-/// After an interruption, and after a change of the sender, `supply` and `taken` count anew.
+/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`,
+/// times the exerted share of the wanted wrench, counts as energy that the hand has put in, at no more than the
+/// device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy beyond 0.1 J that
+/// the wanted wrench does not need, so no force shrinks. The rest of the request decays with a time constant of 1 s.
+/// `SafeCommand::taken` is the energy given up. After an interruption or a change of the sender, `taken` restarts at 0,
+/// and the difference from the earlier `supply` does not count.
 ///
-/// A constant link delay of up to 150 ms for the whole round trip does not make commands old. The age of commands then
-/// counts from the smallest delay of all commands of the last half second or longer (`link_delay`).
+/// A constant link delay does not make commands old if the whole round trip takes at most 150 ms: the smallest age of
+/// all commands in the last half second or longer (`link_delay`) is subtracted from the age of each command.
 ///
-/// Force and torque have separate maxima, so that a device without torque still gives its force. At a maximum, the axis
-/// of the wrench therefore moves. The power limit scales force and torque by the same factor.
+/// Force and torque have separate maxima, so that a device without torque still gives its force. But the axis of the
+/// wrench moves when one of them is at its maximum. The power limit scales force and torque by the same factor.
 ///
 /// Force and torques fade within seven periods and return within 200 ms. Both take longer if the rate in the descriptor
-/// is lower than `max_force` in seven periods. Force and torque never exceed what this rate brings to zero within 15
-/// periods, because the hand could draw energy from a greater force while this force falls. Not thread-safe. Real-time
+/// is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring them to zero
+/// within 15 periods, because the hand could draw energy from a force that falls too slowly. Not thread-safe. Real-time
 /// safe: no allocation, no lock, no system call.
 class SafetyEnvelope {
  public:
-  /// Ages up to `patience_periods` periods are normal. A period is the longer of the periods of device and caller.
-  /// Throws what `validate` throws.
+  /// States and commands older than `patience_periods` periods count as old. A period is the longer of the periods of
+  /// device and caller. Throws what `validate` throws.
   explicit SafetyEnvelope(const DeviceDescriptor& descriptor, double patience_periods = 3.0,
                           std::chrono::nanoseconds period_of_caller = std::chrono::nanoseconds(0));
   /// A moved-from envelope must not be used.
@@ -98,8 +98,8 @@ class SafetyEnvelope {
 
   /// The command for this period: `wanted`, reduced as far as the descriptor and the reasons demand. `wanted` answers
   /// one of the last states. `newest` is the newest state; `now` is a time on the caller's clock. Sequences and times
-  /// do not change. Each call changes the force by at most its rate times the time since the last call, or times two
-  /// periods if this time is longer.
+  /// are those of `wanted`. Each call changes the force by at most its rate times min(time since the last call, two
+  /// periods).
   SafeCommand limit(const GloveCommand& wanted, const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
   /// Whether the newest state and the states of the last tenth of a second are finite and plausible. Afterwards,
@@ -109,11 +109,11 @@ class SafetyEnvelope {
   /// Emergency stop: from now on the force fades to zero and stays there.
   void stop() noexcept;
 
-  /// The descriptor, with the maxima of force and torque lowered by the rates.
+  /// The descriptor, with the maxima of force and torque lowered to what their rates allow.
   const DeviceDescriptor& descriptor() const noexcept;
 
   /// The smallest age of a command in the last half second or longer. At the glove's end, it is the delay of the whole
-  /// round trip. It is 0 in the first half second, and if it is more than 150 ms, which counts as silence.
+  /// round trip. 0 in the first half second, and for ages above 150 ms, which count as silence.
   std::chrono::nanoseconds link_delay() const noexcept;
 
  private:

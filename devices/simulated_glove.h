@@ -1,8 +1,8 @@
 #pragma once
 
-/// A simulated force-feedback glove, i.e. a hand on a grounded force-feedback arm that a wearer moves. The wearer
-/// follows a script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has
-/// neither threads nor clocks: the same inputs give bit-identical outputs.
+/// A simulated force-feedback glove, i.e. the hand of a wearer on a grounded force-feedback arm. The wearer follows a
+/// script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has neither threads
+/// nor clocks: the same inputs give bit-identical outputs.
 
 #include <chrono>
 #include <cstdint>
@@ -31,31 +31,31 @@ struct TimedAngles {
   hands::JointValues angles{};
 };
 
-/// The angles at a time: linear between two entries, constant before the first and after the last. `timed` must have at
-/// least one entry, and ascending times. Cost O(log n).
+/// The angles at `time`: interpolated between two entries, constant before the first and after the last entry. `timed`
+/// must have at least one entry, and ascending times. Cost O(log n).
 hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
 
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script.
 /// The stiffness is that of a relaxed to slightly tensed human arm. A steady force F displaces the hand from the script
 /// by F / stiffness.
 struct SimulatedGloveParameters {
-  double mass = 0.8;                  ///< effective at the hand root: hand, forearm and the device's arm; kg
-  double rotational_inertia = 0.003;  ///< about every axis of the hand root; kg m²
+  double mass = 0.8;                  ///< effective mass of hand, forearm and the device's arm at the hand root; kg
+  double rotational_inertia = 0.003;  ///< inertia about every axis of the hand root; kg m²
   double arm_damping = kArmDamping;   ///< viscous friction of the grounded arm; N s/m
   double arm_rotational_damping = kArmRotationalDamping;  ///< Nm s/rad
   double wearer_stiffness = 400.0;                        ///< N/m
-  double wearer_damping = 35.0;                           ///< damps the velocity relative to the script; N s/m
+  double wearer_damping = 35.0;                           ///< damping of the velocity relative to the script; N s/m
   double wearer_rotational_stiffness = 4.0;               ///< Nm/rad
   double wearer_rotational_damping = 0.22;                ///< Nm s/rad
   double finger_stiffness = 0.5;                          ///< Nm/rad
-  /// Time constant of a finger's approach to its equilibrium; s. Multiplied by the stiffness, it is the viscous
+  /// Time constant of a finger's approach to its equilibrium; s. `finger_stiffness` times this time is the viscous
   /// friction of glove and finger together.
   double finger_time_constant = 0.05;
   hands::JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
-  /// Joint angles of the open hand; none: the hand opens without moving its fingers.
+  /// Joint angles of the open hand. Without a value, the hand opens without moving its fingers.
   std::optional<hands::JointValues> open_posture{};
-  /// Joint angles over the time of the script. They replace the grasp posture and the open posture. Without entries,
-  /// the grip selects one of the two postures.
+  /// Joint angles over the time of the script. If there are entries, they replace the grasp posture and the open
+  /// posture. Otherwise, the grip selects one of the two postures.
   std::vector<TimedAngles> fingers{};
   std::chrono::nanoseconds frozen{0};  ///< `DeviceDescriptor::frozen`
   bool starts_closed = true;           ///< the hand is closed at the start of the script
@@ -67,13 +67,13 @@ struct SimulatedGloveParameters {
 /// and 1000 updates per second. The joint limits are the limits of the human hand.
 DeviceDescriptor simulated_glove_descriptor();
 
-/// The simulation, by semi-implicit Euler in steps of at most 1 ms. Allocates only at construction. Not thread-safe.
+/// Integrates by semi-implicit Euler in steps of at most 1 ms. Allocates only at construction. Not thread-safe.
 class SimulatedGlove {
  public:
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
-  /// std::invalid_argument, naming the parameter, in these cases: a number is not finite; a damping is negative;
-  /// another parameter, except angles of postures, is not positive; stiffness or damping is too large for stable steps
-  /// of 1 ms; or the times of the fingers do not ascend.
+  /// std::invalid_argument, naming the parameter, in these cases: a number is not finite; a damping is negative; a
+  /// parameter other than dampings and angles is not positive; stiffness or damping is too large for stable steps of 1
+  /// ms; or the times of the fingers do not ascend.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
@@ -82,10 +82,10 @@ class SimulatedGlove {
   const GloveState& state() const noexcept { return state_; }
 
   /// Advances the simulation by `dt` under the command `newest`. Returns the new state, with a sequence higher by one
-  /// and a time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command acts for three periods
-  /// of the device and fades in seven more periods, as in a device with a watchdog against a late driver. (An envelope
-  /// counts the command for 10 ms.) The wearer follows the script at `pace` times its speed, from 0 (the wearer waits)
-  /// to 1.
+  /// and a time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command acts fully for three
+  /// periods of the device and then fades within seven periods, as in a device with a watchdog against a late driver.
+  /// (An envelope assumes that the command acts for 10 ms.) The wearer follows the script at `pace` times its speed,
+  /// from 0 (the wearer waits) to 1.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 
   /// The wearer's present time in the script.

@@ -26,8 +26,8 @@ class WearersView;
 /// server is slow, stops when the parts stand still, and waits for at most three seconds.
 class SimulatedGloveService {
  public:
-  /// Receives the new state and the command that led to this state, in each period, in the thread of the service.
-  /// Returns whether the force may go on. After the first false, the force fades and stays at zero.
+  /// Receives the new state and the command that led to this state, in each period, in the thread of the service. The
+  /// first result false lets the force fade and stay at zero.
   using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
   /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
@@ -38,11 +38,11 @@ class SimulatedGloveService {
   /// Elapsed time of the script. Any thread.
   std::chrono::nanoseconds script_time() const noexcept { return script_time_.load(std::memory_order_relaxed); }
 
-  /// Lets the force fade and ends the thread within a tenth of a second. After the return, the results of the functions
-  /// below no longer change.
+  /// Lets the force fade and ends the thread within a tenth of a second. Afterwards, the results of the functions below
+  /// no longer change.
   void stop();
 
-  /// The extra time that the wearer has needed for the script because answers were old. Any thread.
+  /// The extra time that the wearer has needed for the script because forces or displayed parts were old. Any thread.
   std::chrono::nanoseconds waited() const noexcept { return waited_.load(std::memory_order_relaxed); }
 
   /// Greatest norm of all commanded forces, N. Valid after `stop`.

@@ -1,8 +1,8 @@
 #pragma once
 
 /// The plain data of fixed size that the haptic thread (the 1 kHz loop that computes the forces) and the simulation
-/// exchange. The haptic thread passes on the ghosts of all parts and the postures of all hands. The simulation answers
-/// with the visible poses and the constraints of nearby contacts.
+/// exchange. The haptic thread passes the ghosts of all parts and the postures of all hands to the simulation. The
+/// simulation answers with the visible poses and the constraints of nearby contacts.
 
 #include <array>
 #include <chrono>
@@ -22,15 +22,15 @@
 
 namespace glissade::haptics {
 
-/// Ages of a contact set, counted from the ghost pose that the set answers. The force of the set is full up to
-/// kFullForce, then fades smoothly, and is zero from kForceless on.
+/// Ages of a contact set, counted from the ghost poses from which the set was computed. The force of the set is full up
+/// to kFullForce, then fades smoothly, and is zero from kForceless on.
 inline constexpr std::chrono::milliseconds kFullForce{20};
 inline constexpr std::chrono::milliseconds kForceless{100};
 
 /// The constraint of a contact and its range. The other body is an obstacle or a part that another hand leads.
 struct ContactRow : contact::CoupledRow {
   double range = std::numeric_limits<double>::infinity();  ///< metres; see `Contact::range`
-  double approach = 0.0;  ///< m/s, see `Contact::approach`; the bound grows at this rate with the age of the set
+  double approach = 0.0;  ///< m/s, see `Contact::approach`; `bound` grows at this rate with the set's age
   bool pushes = false;    ///< the contact has a positive force
   /// Friction on the part divided by the normal force, in world axes. This vector is perpendicular to the normal, and
   /// its norm is at most the coefficient of friction. It is zero for contacts that do not push.
@@ -38,8 +38,8 @@ struct ContactRow : contact::CoupledRow {
 };
 
 /// Maximum number of rows of one part in a contact set. Without friction, at most six contacts of a single part push at
-/// once. The other rows are the nearest contacts, which may push soon. Flush faces with a fine tessellation may have
-/// more than 64 contacts; the set then omits the farthest contacts.
+/// once. The other rows are the nearest contacts, which may push soon. If flush faces with a fine tessellation have
+/// more than 64 contacts, the set omits the farthest contacts.
 inline constexpr std::size_t kMaxContactRows = 64;
 
 /// The simulation's answer for one part.
@@ -47,24 +47,24 @@ struct PartAnswer {
   Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();        ///< reference point of this hold (the compliance point)
   Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();  ///< the visible part, as displayed
   Eigen::Isometry3d X_WV_of_rows = Eigen::Isometry3d::Identity();  ///< the pose at which the rows were found
-  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost that the set answers
+  Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();          ///< the ghost from which the set was computed
   /// The target in the frame of the ghost. The target differs from the identity if the hand holds the part at an
-  /// offset, or if the metaphor wants another pose than the ghost's.
+  /// offset, or if the metaphor (`contact::Metaphor`) wants another pose than that of the ghost.
   Eigen::Isometry3d X_GT = Eigen::Isometry3d::Identity();
-  /// Metres: with the part at X_WV_of_rows, the simulation found every contact with a smaller gap than `reach`. The set
-  /// has a row for each contact found, except for the `dropped` contacts.
+  /// Metres. With the part at X_WV_of_rows, the simulation found every contact whose gap is smaller than `reach`. The
+  /// set has a row for each contact found, except for the `dropped` contacts.
   double reach = 0.0;
   contact::SlidingState state = contact::SlidingState::kFree;
   std::int32_t pushing = 0;  ///< number of contacts with a positive force
   std::int32_t dropped = 0;  ///< number of contacts beyond kMaxContactRows, which have no row
-  std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost that the set answers
+  std::int64_t hold = 0;     ///< `GhostOfPart::hold` of the ghost from which the set was computed
 };
 
 /// A contact of a segment of a hand with fingers. If the joints of the hand turn by d (rad, one for each joint), the
 /// gap grows by rates · d, to first order.
 struct FingerRow {
   hands::JointValues rates{};                     ///< m/rad
-  double gap = 0.0;                               ///< metres; distance at the visible hand minus the margin, at least 0
+  double gap = 0.0;                               ///< distance at the visible hand minus the margin, at least 0; metres
   std::int32_t part = -1;                         ///< number of the part that the segment touches; −1: another body
   Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit, from the touched body to the segment
   Eigen::Vector3d p_W = Eigen::Vector3d::Zero();  ///< metres: the contact point of the segment
@@ -91,7 +91,7 @@ struct HandAnswer {
 /// the way. Only parts that hands lead have rows.
 struct ContactSet {
   std::int64_t sequence = 0;         ///< 1, 2, 3, … in the order of the sets; 0: no set yet
-  std::chrono::nanoseconds time{0};  ///< time of the ghost poses that the set answers
+  std::chrono::nanoseconds time{0};  ///< time of the ghost poses from which the set was computed
   std::int32_t part_count = 1;
   std::array<PartAnswer, contact::kMaxParts> parts{};
   std::int32_t row_count = 0;  ///< rows in use
@@ -107,8 +107,8 @@ struct ContactSet {
   std::span<const ContactRow> rows() const { return {row_array.data(), static_cast<std::size_t>(row_count)}; }
 };
 
-/// One part as the haptic thread knows it, for the simulation to answer. The simulation only sees the newest poses. The
-/// counts `hold` and `release` show every grasp and release in between.
+/// The state of one part that the haptic thread passes to the simulation. The simulation sees only the newest poses,
+/// but the counts `hold` and `release` also show it all grasps and releases in between.
 struct GhostOfPart {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();
   bool is_held = false;
@@ -116,7 +116,7 @@ struct GhostOfPart {
   std::int64_t release = 0;  ///< value of `hold` when the last hand let go
 };
 
-/// One hand with fingers as the haptic thread knows it.
+/// The state of one hand with fingers that the haptic thread passes to the simulation.
 struct GhostOfHand {
   bool is_tracked = false;  ///< the newest pose and angles arrived less than 0.1 s ago
   Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
@@ -128,7 +128,7 @@ struct GhostOfHand {
 struct Ghosts {
   std::chrono::nanoseconds time{0};
   std::array<GhostOfPart, contact::kMaxParts> parts{};
-  std::array<GhostOfHand, hands::kMaxHands> hands{};  ///< of those with fingers
+  std::array<GhostOfHand, hands::kMaxHands> hands{};  ///< only hands with fingers
 };
 
 /// The state for viewers.

@@ -15,7 +15,7 @@ struct DeviceDescriptor;
 
 namespace glissade::haptics {
 
-/// The default period of the haptic loop, and the bounds of the period, for rates of 5 kHz and 500 Hz.
+/// The default, the shortest and the longest period of the haptic loop (1 kHz, 5 kHz and 500 Hz).
 inline constexpr std::chrono::milliseconds kTickPeriod{1};
 inline constexpr std::chrono::microseconds kShortestTickPeriod{200};
 inline constexpr std::chrono::milliseconds kLongestTickPeriod{2};
@@ -45,19 +45,19 @@ struct Coupling {
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept;
 
-/// The coupling that a device can render without shaking. The period T of the loop is `period`, or that of the device
-/// if this is longer. `delay` is the delay of the link, which adds to the device's own delay. The stiffness K is the
-/// least of `wanted`, the descriptor's limit and `passive_stiffness`. The damping is the least of 5 ms times K, the
-/// descriptor's limit, and b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument, naming the
-/// device, when the device cannot render any stiffness against translation or rotation.
+/// The coupling that a device can render without shaking. T is the longer of `period` and the period of the device.
+/// `delay` is the delay of the link, which adds to the device's own delay. The stiffness K is the least of `wanted`,
+/// the descriptor's limit and `passive_stiffness`. The damping is the least of 5 ms times K, the descriptor's limit,
+/// and b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument, naming the device, when the
+/// device cannot render any stiffness against translation or rotation.
 Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                       std::chrono::nanoseconds period = kTickPeriod,
                       std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
 
-/// Like `coupling_for`, but without the check, and for a part whose reference point has the distance `lever` l (metres)
-/// from that of the device. The spring against translation then also turns the device, like a spring of the stiffness K
-/// l² against rotation. The device's rotational damping must keep this spring passive, too. `max_rotational_stiffness`
-/// does not limit this spring. Real-time safe.
+/// Like `coupling_for`, but without the check, and for a part whose reference point is at the distance l = `lever`
+/// (metres) from that of the device. The spring against translation then also turns the device, like a spring of the
+/// stiffness K l² against rotation. The device's rotational damping must keep this spring passive, too.
+/// `max_rotational_stiffness` does not limit this spring. Real-time safe.
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever = 0.0) noexcept;

@@ -20,8 +20,8 @@ struct HandModel;
 
 namespace glissade::haptics {
 
-/// A hinge between the hand root and the palm. Frame P is that of the previous hinge or of the root. Frame J turns
-/// about `axis_J`.
+/// A hinge between the hand root and the palm. Frame P is the frame J of the previous hinge or, for the first hinge,
+/// the hand root. Frame J turns about `axis_J`.
 struct WristJoint {
   std::size_t angle = 0;  ///< number of the glove's joint
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
@@ -32,29 +32,29 @@ struct WristJoint {
 struct FingerHand {
   hands::JointValues lower{};  ///< range of each joint, rad
   hands::JointValues upper{};
-  std::vector<WristJoint> wrist{};  ///< from the hand root on; a part in the hand moves with the last frame
+  std::vector<WristJoint> wrist{};  ///< in order from the hand root; a part in the hand moves with the last frame J
 };
 
 /// The `FingerHand` of a hand of the simulation.
 FingerHand finger_hand(const grasping::HandModel& hand);
 
-/// The stiffness (Nm/rad) of the spring at each joint of a glove. The spring reaches `max_joint_torque` at a depth of
-/// 0.8 degrees. So a finger that presses with a smaller torque stops within this angle. The stiffness has three upper
-/// bounds. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of the loop (at
-/// least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not report
-/// its `joint_damping`, b is the damping that the full stiffness needs without a link. The second is r / (6 rad/s),
-/// because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`) lags behind a quickly tapping finger
-/// and would make it rattle. The third is twice the joint's Coulomb friction divided by the step of the measured
+/// The stiffness (Nm/rad) of the spring at each glove joint. At full stiffness, the spring reaches `max_joint_torque`
+/// at a depth of 0.8 degrees, so a finger that presses with a smaller torque stops within this angle. Three bounds may
+/// lower it. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of the loop
+/// (at least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not
+/// report its `joint_damping`, b is the damping that the full stiffness needs without a link. The second is r / (6
+/// rad/s), because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`) lags behind a quickly tapping
+/// finger and would make it rattle. The third is twice the joint's Coulomb friction divided by the step of the measured
 /// angles, because nothing damps a finger within a step. Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 
-/// `lags` (rad) are from the visible hand to the glove. If the lag of a joint closes the gap of a contact, this joint
-/// must go back, at most to the visible hand. Computes by least squares how far (rad) such joints must go back to leave
-/// the contact, and raises `depths` to these values. The torques of one contact are the gradient of a convex energy in
-/// the closing joints. These joints together are no stiffer than each joint alone, and softer if an arm is shorter than
-/// 2 mm. If a joint has several contacts, the greatest depth counts, so n joints may be stiffer by (1 + √n) / 2.
-/// Real-time safe: O(joints²) at worst.
+/// `lags` (rad) are the joint angles of the glove minus those of the visible hand. If the lag of a joint closes the gap
+/// of a contact, this joint must go back, at most to the visible hand. Computes by least squares how far (rad) all such
+/// joints of the contact must go back to leave it, and raises `depths` to these values. The torques of one contact are
+/// the gradient of a convex energy in the closing joints. These joints together are no stiffer than each joint alone,
+/// and softer if an arm is shorter than 2 mm. If a joint has several contacts, the greatest depth counts, so n joints
+/// may be stiffer by (1 + √n) / 2. Real-time safe: O(joints²) at worst.
 void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
 /// Computes the joint torques of a glove whose hand clasps an object. Springs push back each joint whose motion from
@@ -62,11 +62,11 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
 /// exactly zero torque.
 ///
 /// The torque is continuous in the posture of the glove. Contacts that push at an arm of less than 2 mm about a joint's
-/// axis count less, down to zero. If a wearer's joint presses with τ Nm, at most the largest torque, the joint rests τ
+/// axis count less, down to zero. If a wearer's joint presses with τ Nm (at most the largest torque), the joint rests τ
 /// / stiffness deeper than the visible hand.
 ///
-/// There is no damper, because gloves measure angles, often in coarse steps, and no rates. The stiffness allows for
-/// this.
+/// There is no damper, because gloves measure no rates, only angles, often in coarse steps. The bounds of the stiffness
+/// take this into account.
 ///
 /// Not thread-safe. Real-time safe: no allocation, no lock, no system call.
 class FingerForces {
@@ -108,8 +108,8 @@ HandAnswer answer_of(const grasping::GraspSimulation& simulation, std::size_t ha
 inline constexpr std::size_t kFingers = 5;
 
 /// The forces of a hand's fingertips, for a wearer whose fingers are at their targets. The springs of the glove give
-/// the joint torques. Of all non-negative contact forces, those count whose torques come nearest to these joint
-/// torques. The load of a held part is not included. Not thread-safe.
+/// the joint torques. The result has the non-negative contact forces whose torques come nearest to these joint torques.
+/// The load of a held part is not included. Not thread-safe.
 class FingertipForces {
  public:
   /// Throws what the constructor of `FingerForces` throws.

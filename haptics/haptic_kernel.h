@@ -38,7 +38,7 @@ struct KernelPart {
   Eigen::Vector3d p_Vref = Eigen::Vector3d::Zero();  ///< the part's own compliance point; see `SlidingPart::p_Vref`
   double radius = 0.0;                               ///< metres, about `p_Vref`; see `SlidingPart::radius`
   contact::CouplingStiffness stiffness{};            ///< in the simulation
-  bool is_scripted = false;                          ///< no hand can hold it
+  bool is_scripted = false;                          ///< a script moves the part, so no hand can hold it
 };
 
 /// The parts of a simulation.
@@ -47,20 +47,20 @@ std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding);
 /// A hand in a device.
 struct KernelHand {
   devices::DeviceDescriptor device;
-  /// Number of the part that the hand takes at the first state of its glove, if the grip is closed in this state. A
-  /// hand with fingers has none.
+  /// Number of the part that the hand takes at the first state of its glove, if the grip is closed in this state. Must
+  /// have no value for a hand with fingers.
   std::optional<std::size_t> part{};
   /// If set, the hand has fingers: it gets joint torques, and holds the part that the simulation chooses
-  /// (`HandAnswer::part`). A hand without fingers holds by its grip.
+  /// (`HandAnswer::part`). A hand without fingers takes and releases parts by its grip.
   std::optional<FingerHand> fingers{};
 };
 
 /// A device of a loop, and the part that its hand takes. The first devices lead the simulation's hands with fingers.
 template <typename Device>
 struct HandInLoop {
-  /// `part` is for a hand without fingers. It is the number of the part that the hand grasps at the first state, by
-  /// default the first part. Several hands may hold one part. If `part` is none, the hand grasps a part later, by a
-  /// call of `grasp` or by its grip.
+  /// `part_in_hand` is the number of the part that a hand without fingers grasps at its first state, by default the
+  /// first part. Several hands may hold one part. Without a value, the hand grasps a part later, by a call of `grasp`
+  /// or by its grip.
   HandInLoop(Device* device_of_hand, std::optional<std::size_t> part_in_hand = 0)
       : device(device_of_hand), part(part_in_hand) {}
 
@@ -76,7 +76,7 @@ struct HandTick {
   std::optional<std::size_t> part;  ///< number of the part that the hand holds
   contact::Wrench contacts;         ///< wrench of the contacts on the hand about the ghost's reference point
   contact::Wrench pull;             ///< wrench of other hands' pull on the part, about the same point
-  double contact_share = 1.0;       ///< share of the contact force: less than 1 if the contacts are old or left behind
+  double contact_share = 1.0;       ///< allowed share of the contact force; see `HapticHandState::contact_share`
   bool is_unsolved = false;         ///< the contacts have no solution, so their wrench goes towards zero
   /// Wrench of contacts, pull and damper about the hand root, limited by the safety envelope. Zero without a state.
   devices::SafeCommand command;
@@ -97,8 +97,8 @@ class HapticKernel {
   /// forces that the simulation reports differ from the force on the hand. To avoid this, construct the simulation with
   /// the stiffness that `coupling_for` returns. Throws what `coupling_for` throws. Also throws std::invalid_argument in
   /// these cases: no hands or more than hands::kMaxHands; no parts or more than kMaxParts; a held part that is scripted
-  /// or does not exist; a hand with fingers and a part; limits of a finger that do not form a range; invalid wrist
-  /// joints.
+  /// or does not exist; a hand that has both fingers and a part; limits of a finger that do not form a range; invalid
+  /// wrist joints.
   HapticKernel(std::vector<KernelPart> parts, const std::vector<KernelHand>& hands,
                std::chrono::nanoseconds period = kTickPeriod);
   ~HapticKernel();
@@ -128,7 +128,7 @@ class HapticKernel {
   /// Emergency stop: the force of all hands fades to zero and stays there.
   void stop() noexcept;
 
-  /// The coupling if the link has no delay. The hand and the part must exist.
+  /// The coupling for a link without delay. The hand and the part must exist.
   const Coupling& coupling(std::size_t hand, std::size_t part) const;
   /// The coupling of the hand in the last tick, with the link delay from the glove (`GloveState::link_delay`) smoothed
   /// over 0.1 s.

@@ -43,7 +43,7 @@ struct HapticServerOptions {
   /// `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
   /// Time before each deadline for which the haptic thread polls the clock instead of sleeping, at most half of the
-  /// period. Polling makes ticks start on time, and occupies a processor for this time.
+  /// period. Polling makes ticks start on time, but occupies a processor while it lasts.
   std::chrono::nanoseconds spin{0};
   /// Receives the state of each counted tick. May be empty. The haptic thread calls this function, so the function must
   /// be real-time safe. After an exception from `sink` the force fades, as after an exception of the simulation, and
@@ -58,7 +58,7 @@ struct HapticServerOptions {
 struct HapticServerStatistics {
   realtime::PeriodicStatistics haptic;         ///< all ticks of the haptic thread, counted or not
   realtime::LatencyHistogram simulation;       ///< duration of each call of the simulation
-  realtime::LatencyHistogram contact_set_age;  ///< at each counted tick: age of the ghosts that the set answers
+  realtime::LatencyHistogram contact_set_age;  ///< age of the contact set's ghosts at each counted tick
   std::int64_t unsolved_ticks = 0;             ///< counted ticks in which the contacts of any hand had no solution
   realtime::ThreadScheduling scheduling;       ///< of the haptic thread
   std::int64_t page_faults = 0;                ///< of the haptic thread, from its first counted tick to its end
@@ -69,11 +69,11 @@ struct HapticServerStatistics {
 class HapticServer {
  public:
   /// Starts both threads. Devices and simulation must outlive the server. A hand grasps its part when the first state
-  /// of its device arrives; the part stays where it is. Parts lie still, and are obstacles, if no hand grasps them and
-  /// no script moves them. The coupling is the result of `coupling_for` with the descriptor of the device and the
-  /// stiffness of the simulation. The simulation should have `contact::real_time_rules`. Throws std::invalid_argument
-  /// if a device is null, if the period is out of bounds, or if there are fewer devices than hands in the simulation.
-  /// Also throws what the constructors of `HapticKernel` and `realtime::PeriodicThread` throw.
+  /// of its device arrives; the part stays where it is. A part that no hand holds and no script moves lies still and is
+  /// an obstacle. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of
+  /// the simulation. The simulation should use `contact::real_time_rules`. Throws std::invalid_argument if a device is
+  /// null, if the period is out of bounds, or if there are fewer devices than hands in the simulation. Also throws what
+  /// the constructors of `HapticKernel` and `realtime::PeriodicThread` throw.
   HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands, grasping::GraspSimulation& simulation,
                HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;

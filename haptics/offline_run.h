@@ -48,8 +48,8 @@ void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, 
 /// thread-safe.
 class Replay {
  public:
-  /// These must be those of the recording: the scene, the rules, the devices and parts of `hands`, the period, and
-  /// `head`. The fingers of `hands` must be those of the simulation. The simulation must outlive this object, and no
+  /// The scene, the rules, the devices and parts of `hands`, the period and `head` must be the same as in the
+  /// recording. The fingers of `hands` must be those of the simulation. The simulation must outlive this object, and no
   /// one else may use it. Throws what the constructor of `HapticKernel` throws.
   Replay(grasping::GraspSimulation& simulation, std::vector<KernelHand> hands, std::chrono::nanoseconds period,
          RecordingHead head);
@@ -71,8 +71,7 @@ class Replay {
   /// a tick or has no tick.
   bool finish();
 
-  /// Numbers of ticks and answers repeated so far. After `settle`, all ticks and answers before the difference are
-  /// repeated.
+  /// Numbers of ticks and answers repeated so far. After `settle`, they include everything before the first difference.
   std::int64_t ticks() const noexcept { return ticks_; }
   std::int64_t answers() const noexcept { return answers_; }
   std::chrono::nanoseconds duration() const noexcept { return last_ - first_; }  ///< recorded time

@@ -138,7 +138,7 @@ class RecordedEvents {
   explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
 
   const std::vector<devices::LogEvent>& at_start() const { return head_.events; }
-  /// The HAPTIC_TICK event, followed by those of `others_of`.
+  /// The HAPTIC_TICK event, followed by the events that `others_of` returns.
   std::vector<devices::LogEvent> of(const TickRecord& record);
   std::vector<devices::LogEvent> others_of(const TickRecord& record);
   static devices::LogEvent of(const AnswerRecord& record);
@@ -150,7 +150,7 @@ class RecordedEvents {
 };
 
 /// The inputs, start time and duration of the tick in a HAPTIC_TICK event. The results of the tick have default values.
-/// No value for an event on another channel or with changed bytes.
+/// Returns no value if the event is on another channel or its bytes have been changed.
 std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event);
 
 /// Writes all events to a file.
@@ -162,8 +162,8 @@ class LogRecorder final : public LoopObserver {
   void after_tick(const TickRecord& record) noexcept override;
   void after_answer(const AnswerRecord& record) noexcept override;
 
-  /// Ends the file. Call this function after the last call of the functions above. Throws std::runtime_error, naming
-  /// the file, when something could not be written.
+  /// Ends the file. Call this function after the last record. Throws std::runtime_error, naming the file, when
+  /// something could not be written.
   void close();
 
  private:

@@ -18,7 +18,7 @@ class Clock {
   /// Returns as soon as now() ≥ `deadline`. May block.
   virtual void sleep_until(std::chrono::nanoseconds deadline) noexcept = 0;
 
-  /// Like `sleep_until`, for a short time before a deadline. A clock that can spin reads the time in a busy loop and
+  /// Like `sleep_until`, for the short time before a deadline. A clock that can spin reads the time in a busy loop and
   /// keeps the processor, so no wake-up can be late.
   virtual void spin_until(std::chrono::nanoseconds deadline) noexcept { sleep_until(deadline); }
 };

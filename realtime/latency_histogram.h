@@ -16,8 +16,8 @@ namespace glissade::realtime {
 /// Not thread-safe. Only the recording thread may read a histogram until this thread has been joined.
 class LatencyHistogram {
  public:
-  /// A reported quantile is never below the exact quantile. If it is below 18 minutes, it exceeds the exact quantile by
-  /// at most the fraction kRelativeError.
+  /// A reported quantile is never below the exact quantile. If the exact quantile is below 18 minutes, the reported
+  /// quantile exceeds it by at most the fraction kRelativeError.
   static constexpr double kRelativeError = 1.0 / 64.0;
 
   /// Adds one duration. A negative duration counts as 0. All durations of 2^40 ns or more share the last bucket, so

@@ -38,8 +38,7 @@ struct PeriodicThreadOptions {
   std::string name;  ///< see `name_this_thread`; empty: the name of the starting thread
 };
 
-/// Sets the name of the calling thread that `top -H`, debuggers and /proc show. The system keeps the first 15 bytes of
-/// the name.
+/// Sets the name of the calling thread, as shown by `top -H`, debuggers and /proc. The system keeps the first 15 bytes.
 void name_this_thread(std::string_view name) noexcept;
 
 /// Whether the system would grant `lock_memory`, i.e. whether this process may lock any amount of memory. Changes

@@ -71,7 +71,7 @@ class SpscRing {
   std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
  private:
-  /// Bytes. The number is fixed, because std::hardware_destructive_interference_size may differ between translation
+  /// In bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation
   /// units.
   static constexpr std::size_t kCacheLineBytes = 64;
 

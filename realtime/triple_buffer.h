@@ -26,7 +26,7 @@ class TripleBuffer {
   TripleBuffer(const TripleBuffer&) = delete;
   TripleBuffer& operator=(const TripleBuffer&) = delete;
 
-  /// Writer: makes `value` the newest value. A published value that no `update` has taken is lost.
+  /// Writer: makes `value` the newest value. It replaces a published value that no `update` has taken yet.
   void publish(const T& value) noexcept(std::is_nothrow_copy_assignable_v<T>) {
     write_slot() = value;
     publish();
@@ -60,7 +60,7 @@ class TripleBuffer {
   }
 
  private:
-  /// Bytes. The number is fixed, because std::hardware_destructive_interference_size may differ between translation
+  /// In bytes. A fixed number, because std::hardware_destructive_interference_size may differ between translation
   /// units.
   static constexpr std::size_t kCacheLineBytes = 64;
   static constexpr std::uint8_t kIndex = 3;
