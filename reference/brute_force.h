@@ -4,8 +4,8 @@
 /// other. The result is a reference for comparison with faster queries. Use `dop_query.h` for all other purposes.
 ///
 /// The exact predicate of `triangle_pair.h` decides each pair whose axis-aligned bounding boxes overlap. As in
-/// `dop_query.h`, the coordinates are those of the vertices of A, and of the vertices of B transformed by X_AB in
-/// double precision. Triangles of zero area are ignored. Touching counts as intersection. Cost O(n·m).
+/// `dop_query.h`, it takes the vertices of A, and the vertices of B transformed by X_AB in double precision. Triangles
+/// of zero area are ignored. Touching counts as intersection. Cost O(n·m).
 
 #include <vector>
 

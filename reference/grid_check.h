@@ -79,10 +79,9 @@ class GridCheck {
   Eigen::Vector3d high_ = Eigen::Vector3d::Zero();
   Eigen::Array3i cell_counts_ = Eigen::Array3i::Zero();
   Eigen::Array3i block_counts_ = Eigen::Array3i::Zero();
-  std::vector<std::uint32_t>
-      cell_begin_;  ///< obstacles of cell i: cell_obstacles_[cell_begin_[i] ... cell_begin_[i + 1]]
+  std::vector<std::uint32_t> cell_begin_;  ///< index of the first obstacle of each cell in cell_obstacles_
   std::vector<std::uint32_t> cell_obstacles_;
-  std::vector<char> block_occupied_;  ///< whether any cell in a block of 8 × 8 × 8 has obstacles
+  std::vector<char> block_occupied_;  ///< 1 for each block of 8 × 8 × 8 cells with obstacles, else 0
 };
 
 }  // namespace glissade::reference

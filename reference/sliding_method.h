@@ -1,7 +1,7 @@
 #pragma once
 
-/// One interface for a comparison of two methods of sliding contact. The methods are that of `contact::Sliding` and
-/// that of the founding paper, *Natural Interaction in Virtual Environments*, §3.
+/// One interface to compare two methods of sliding contact: the method of `contact::Sliding`, and the method of the
+/// founding paper, *Natural Interaction in Virtual Environments*, §3.
 
 #include <array>
 #include <cstdint>
@@ -19,7 +19,7 @@
 
 namespace glissade::reference {
 
-/// The simulation of one part in the hand. The functions are those of `contact::Sliding`. Not thread-safe.
+/// The simulation of one part in the hand. Its functions are those of `contact::Sliding`. Not thread-safe.
 class SlidingSimulation {
  public:
   SlidingSimulation() = default;

@@ -7,7 +7,7 @@
 /// `triangle_count` refines the tessellation and leaves the shape unchanged. The result is deterministic. From 1,000 to
 /// 1,000,000 triangles, the number of triangles matches the count within 15 %. Below 1,000 there are more triangles if
 /// the shape needs them. Below 8,000 triangles, small details (screws, ribs, teeth, mirrors) are omitted. Sizes are in
-/// metres and include the details. From 8,000 triangles on, they hold within 3 %. Cost is linear in the count.
+/// metres and include the details. From 8,000 triangles on, stated sizes hold within 3 %. Cost is linear in the count.
 ///
 /// The tessellation imitates that of a CAD model. Faces are tessellated one by one and not welded, so the vertices of
 /// adjacent faces need not coincide. Triangles differ in size. On flat faces and cylinders they are long and thin, and

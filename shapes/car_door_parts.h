@@ -6,8 +6,8 @@
 /// All parts except the motor are given in the world frame W: x forward along the car, y outwards from the cabin (the
 /// hand is at y < 0), z up. The motor is given in its own frame V. The origin of V is near the motor's centre, and its
 /// axes are parallel to those of W when the motor is seated. `detail` scales the number of triangles, not the
-/// dimensions. With 1, the motor has about 50,000 triangles, and so have the four door parts together. Each function
-/// throws std::invalid_argument when `detail` is not within 0.001 ... 100. Sheet metal is open and has no thickness.
+/// dimensions. A `detail` of 1 gives the motor about 50,000 triangles, and the four door parts together as many.
+/// Functions throw std::invalid_argument if `detail` is outside 0.001 ... 100. Sheet metal is open, without thickness.
 
 #include <Eigen/Geometry>
 
@@ -27,14 +27,14 @@ inline constexpr double kAccessHoleX = 0.0;
 inline constexpr double kAccessHoleZ = -0.14;
 inline constexpr double kAccessHoleCornerRadius = 0.025;
 
-/// The side-impact tube is parallel to x through (kImpactTubeY, kImpactTubeZ) in y and z, and 32 mm in diameter.
+/// The axis of the side-impact tube is parallel to x at y = kImpactTubeY and z = kImpactTubeZ.
 inline constexpr double kImpactTubeY = 0.105;
 inline constexpr double kImpactTubeZ = 0.0;
 inline constexpr double kImpactTubeRadius = 0.016;
 inline constexpr double kImpactTubeLength = 0.86;
 
-/// The bead above the seat stops the bracket. The foot of its lower flank is the line z = kStopBeadZ, y = 0. The bead
-/// rises towards y > 0. The panel between bead and access hole is exactly flat except for the bolt holes.
+/// The bead above the seat stops the bracket. The foot of the bead's lower flank is the line z = kStopBeadZ, y = 0. The
+/// bead rises towards y > 0. The panel between bead and access hole is exactly flat except for the bolt holes.
 inline constexpr double kStopBeadZ = 0.2;
 
 /// Bounds of the motor: x in [-0.09, 0.09], y in [-0.038, 0.038], z in [-0.055, 0.055] of V.
@@ -42,10 +42,10 @@ inline constexpr double kMotorHalfWidth = 0.09;
 inline constexpr double kMotorHalfDepth = 0.038;
 inline constexpr double kMotorHalfHeight = 0.055;
 
-/// The motor's drum is around the line x = 0.04, z = -0.005 of V. Only the drum reaches beyond y = 0.02 of V.
+/// The axis of the motor's drum is the line x = 0.04, z = -0.005 of V. Only the drum reaches beyond y = 0.02 of V.
 inline constexpr double kDrumRadius = 0.026;
 
-/// Start pose of the motor, which is in the cabin in front of the access hole, clear of everything.
+/// Start pose of the motor: in the cabin in front of the access hole, without contact.
 Eigen::Isometry3d start_pose_WV();
 
 /// Seat pose of the motor. The bracket lies flush on the back of the inner panel, and its upper edge meets the foot of

@@ -12,8 +12,8 @@
 
 namespace glissade::shapes {
 
-/// An outline in the plane of the sheet, parallel to the axes, in metres. A circle has size (d, d) and corner_radius
-/// d/2.
+/// An outline in the plane of the sheet, with sides parallel to the axes, in metres. A circle has size (d, d) and
+/// corner_radius d/2.
 struct RoundedRectangle {
   Eigen::Vector2d center;
   Eigen::Vector2d size;
@@ -40,11 +40,11 @@ struct SheetMetal {
 };
 
 /// The sheet with about `triangle_count` triangles, facing +z. If `triangle_count` is too small for the shapes of holes
-/// and beads, the mesh has more triangles. Vertices of outlines lie on the outlines within 1e-7 m.
+/// and beads, the mesh has more triangles. Vertices on an outline are within 1e-7 m of the exact outline.
 ///
 /// Throws std::invalid_argument in these cases: a size is not positive; a corner radius does not fit; a flank is wider
-/// than the bead allows; or a hole or bead is not within the sheet. Holes and beads should not overlap. Where a hole
-/// overlaps a bead, the hole counts. Where two beads overlap, the later bead counts.
+/// than the bead allows; or a hole or bead is not within the sheet. Holes and beads should not overlap. If they do, a
+/// hole takes precedence over a bead, and a later bead over an earlier bead.
 geometry::TriangleMesh make_sheet(const SheetMetal& sheet, std::int64_t triangle_count);
 
 }  // namespace glissade::shapes

@@ -1,7 +1,7 @@
 #pragma once
 
 /// A unit that slides into a bay, such as a radio into its slot. Spring tongues of the bay overlap the unit by design.
-/// The shapes are for tests of parts that reach their seat although other parts are in the way.
+/// The shapes test whether a part reaches its seat although other objects are in its way.
 ///
 /// The unit is given in its own frame. When the unit is seated, this frame coincides with the frame of the bay. The
 /// unit slides in along +y. The bezel lies between y = -bezel_thickness and y = 0. When the unit is seated, the back of
@@ -20,15 +20,15 @@
 namespace glissade::shapes {
 
 struct SlideInShape {
-  double width = 0.18;   ///< of the body, along x
-  double height = 0.05;  ///< of the body, along z
-  double depth = 0.16;   ///< of the body, along y
+  double width = 0.18;   ///< width of the body, along x
+  double height = 0.05;  ///< height of the body, along z
+  double depth = 0.16;   ///< depth of the body, along y
   double bezel_thickness = 8e-3;
-  double bezel_border = 6e-3;  ///< reach of bezel and flange beyond the body; more than the clearance
+  double bezel_border = 6e-3;  ///< width of bezel and flange beyond the body; more than the clearance
   double clearance = 0.5e-3;
-  double overlap = 0.3e-3;        ///< of each tongue with the seated body; less than half the width
-  int tongues_per_side = 2;       ///< 1 ... 100, one behind the other
-  std::int64_t triangles = 1000;  ///< approximate number for the unit, and for the bay without tongues
+  double overlap = 0.3e-3;        ///< overlap of each tongue with the seated body; less than half the width
+  int tongues_per_side = 2;       ///< tongues on each side, one behind the other, 1 ... 100
+  std::int64_t triangles = 1000;  ///< approximate number for the unit, and also for the bay without tongues
 };
 
 /// The unit, with body and bezel as two closed components.

@@ -33,16 +33,16 @@ constexpr const char* kCollideDescription =
 constexpr const char* kCollideFooter =
     "Poses: columns x_m,y_m,z_m,qw,qx,qy,qz. Each row is the pose of mesh B in the frame of mesh A: a position in\n"
     "metres and a unit quaternion, w first. The length of the quaternion may deviate from 1 by up to 1e-3. Without\n"
-    "--poses, the meshes have the poses of their files.\n"
+    "--poses, the frames of A and B coincide.\n"
     "\n"
     "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
-    "Touching counts as colliding. With --tolerance-m T, any distance of at most T counts as colliding, too. With\n"
-    "--distance, more columns have the exact distance, the nearest points in the frame of A, and their triangles.\n"
-    "These columns are empty if the meshes intersect.\n"
+    "Touching counts as colliding. With --tolerance-m T, meshes at a distance of at most T also count as colliding.\n"
+    "With --distance, more columns have the exact distance, the nearest points in the frame of A, and the triangles\n"
+    "of these points. These columns are empty if the meshes intersect.\n"
     "\n"
     "--cache stores the DOP-trees (bounding-volume hierarchies) in the files A.dop-tree and B.dop-tree. Later runs\n"
-    "read these files, which saves most of the time to build the trees. If a file is damaged or does not match its\n"
-    "mesh, the command writes it anew and reports this on standard error. If a file cannot be written, the command\n"
+    "read these files, which saves most of the time of building the trees. If a file is damaged or does not match its\n"
+    "mesh, the command rewrites the file and reports this on standard error. If a file cannot be written, the command\n"
     "reports this on standard error and continues.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
@@ -147,14 +147,14 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   command->add_option("--poses", options->poses, "CSV file of the poses of B in the frame of A, see below");
   command
       ->add_option("--scale", options->scales,
-                   "Metres per unit of the meshes: 0.001 for millimetres; or two numbers, for A and for B")
+                   "Metres per unit of the meshes: 0.001 for millimetres. Two numbers: one for A, one for B")
       ->expected(1, 2)
       ->check(positive());
   command->add_flag("--pairs", options->question.count_pairs, "Count the colliding pairs of triangles");
   command->add_flag("--distance", options->question.measure, "Measure the distance, and print the nearest points");
-  command->add_option("--tolerance-m", options->question.tolerance, "Distance in metres up to which triangles collide")
+  command->add_option("--tolerance-m", options->question.tolerance, "Greatest distance (m) that counts as a collision")
       ->capture_default_str();
-  command->add_option("--method", options->method, "Search with DOP-trees, or test all pairs of triangles as a check")
+  command->add_option("--method", options->method, "Search with DOP-trees or, as a check, test all pairs of triangles")
       ->check(one_of(collide_method_names()))
       ->capture_default_str();
   command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();

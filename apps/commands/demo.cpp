@@ -43,13 +43,13 @@ constexpr const char* kDemoFooter =
     "past the side-impact tube and back against the panel. With --fingers, the hand grasps a motor on a bench with\n"
     "its fingers, carries it to its seat on a door module, lets go and withdraws.\n"
     "\n"
-    "The hand follows a script, which --seconds scales in time, and yields to the forces on it. In real time, glove\n"
-    "and server communicate over LCM, 1000 times a second. If the machine is too slow, the wearer waits for the\n"
-    "visible parts, and the run takes longer. If the script of --scene has columns for the joints, the hand grasps\n"
-    "movable objects with its fingers. Otherwise it holds the first movable object rigidly. Other movable objects lie\n"
-    "still, and objects with 'moves: FILE' follow their own scripts. With --offline, everything runs in one thread on\n"
-    "a simulated clock, and the result is the same every time. With --view, the run starts when a browser has opened\n"
-    "the page.\n"
+    "The hand follows a script that is scaled in time to --seconds, and yields to the forces on the hand. In real\n"
+    "time, glove and server communicate over LCM, 1000 times a second. If the machine is too slow, the simulated\n"
+    "wearer waits for the visible parts, and the run takes longer. If the script of --scene has columns for the\n"
+    "joints, the hand grasps movable objects with its fingers. Otherwise, the hand holds the first movable object\n"
+    "rigidly. Other movable objects lie still, and objects with 'moves: FILE' follow their own scripts. With\n"
+    "--offline, everything runs in one thread on a simulated clock, and the result is the same every time. With\n"
+    "--view, the run starts when a browser has opened the page.\n"
     "\n"
     "After the run, brute force checks every visible pose, i.e. every pose at which parts and hands with fingers were\n"
     "shown. If a pose collides, or if the part misses the goal of the scene, the exit code is 1.\n"
@@ -190,7 +190,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");
   command->add_flag("--json", options->json, "Print the summary as JSON");
   command->add_flag("--verbose", options->verbose, kVerboseHelp);
-  command->add_option("--lcm", options->lcm_url, "LCM address that glove and haptic server share")
+  command->add_option("--lcm", options->lcm_url, "LCM address of the glove and the haptic server")
       ->capture_default_str()
       ->excludes(offline);
   CLI::Option* record = command->add_option("--record", options->record,
@@ -201,7 +201,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
       ->add_option(
           "--report", options->report,
           "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, torque, "
-          "lag (distance from the visible part to the pose of the hand's target), contacts and states")
+          "lag (distance from the visible part to the pose to which the hand pulls it), contacts and states")
       ->take_last();
   add_strict_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -17,8 +17,8 @@ namespace {
 constexpr const char* kDoctorDescription = "Check this machine for a haptic loop, and suggest changes";
 
 constexpr const char* kDoctorFooter =
-    "Checks rights, scheduler, timers, power saving, kernel and network, and changes nothing. Each finding has its\n"
-    "meaning for haptics and, if possible, the command that improves it. The exit code is always 0.\n"
+    "Checks rights, scheduler, timers, power saving, kernel and network, and changes nothing. Each finding states\n"
+    "what it means for haptics and, if possible, a command that improves it. The exit code is always 0.\n"
     "\n"
     "Examples:\n"
     "  glissade doctor\n"

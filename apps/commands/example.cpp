@@ -19,9 +19,9 @@ namespace {
 constexpr const char* kExampleDescription = "Write scenes, trajectories and meshes for trying the other commands";
 
 constexpr const char* kExampleFooter =
-    "Writes small files for the examples in the help of every command. The command keeps existing files with the same\n"
-    "content. If an existing file has another content, the command writes nothing. For each of ten household objects\n"
-    "there are a scene and a hand that grasps and lifts the object, such as grasp_mug.yaml and grasp_mug_hand.csv.\n"
+    "Writes small files for the examples in the help of every command. Existing files with the same content are kept.\n"
+    "If an existing file has other content, the command writes nothing. For each of ten household objects there are a\n"
+    "scene and a hand that grasps and lifts the object, such as grasp_mug.yaml and grasp_mug_hand.csv.\n"
     "\n"
     "Examples:\n"
     "  glissade example\n"

@@ -34,12 +34,12 @@ constexpr const char* kGloveDescription = "Simulate a force-feedback glove in a 
 constexpr const char* kGloveFooter =
     "Script: columns t_s,x_m,y_m,z_m,qw,qx,qy,qz. Each row is a time and the pose X_WH of the hand root, the frame\n"
     "whose pose the glove reports. Times increase. An optional ninth column, grip, says whether the hand is closed\n"
-    "(1) or open (0) from this row on. A hand that opens lets go. A hand that closes takes the nearest part. Instead\n"
-    "of grip, 22 columns, thumb_roll_rad to wrist_abduction_rad, may have the angles to which the wearer moves the\n"
-    "fingers, for a server that lets fingers grasp ('glissade run --fingers'). Without --script, the hand follows the\n"
-    "script of the car door demonstration or, with --fingers, that of the door module.\n"
-    "The hand waits at the first pose until a haptic server ('glissade run') sends a command. The hand yields to the\n"
-    "forces on it. If the server or the visible parts are slow, the wearer waits for at most three seconds. The\n"
+    "(1) or open (0) from this row on. A hand that opens lets go of its part. A hand that closes takes the nearest\n"
+    "part. For a server that lets fingers grasp ('glissade run --fingers'), replace grip by 22 columns,\n"
+    "thumb_roll_rad to wrist_abduction_rad: the angles to which the wearer moves the joints. Without --script, the\n"
+    "hand follows the script of the car door demonstration or, with --fingers, that of the door module.\n"
+    "The hand waits at the first pose until a haptic server ('glissade run') sends a command. The hand yields to\n"
+    "forces. If the server or the visible parts are slow, the simulated wearer waits for at most three seconds. The\n"
     "process ends at the end of the script, or with Ctrl-C. When the force fades, the command prints the reason to\n"
     "standard error. For the columns of --record, see docs/file_formats.md in the sources.\n"
     "\n"
@@ -180,11 +180,11 @@ void add_glove_command(CLI::App& app, Command& chosen) {
       ->excludes("--script");
   command
       ->add_option("--frozen-ms", options->frozen_ms,
-                   "A pose that repeats bit by bit for longer is an error of the tracker, and lets the force fade; "
+                   "Time in milliseconds for which the tracker may repeat a pose bit by bit; then the force fades; "
                    "0: not checked")
       ->capture_default_str();
-  CLI::Option* record = command->add_option("--record", options->record,
-                                            "File for the pose of the hand and the force in every period (CSV)");
+  CLI::Option* record =
+      command->add_option("--record", options->record, "CSV file for the hand's pose and force in every period");
   command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -30,12 +30,13 @@ constexpr const char* kReplayDescription =
 
 constexpr const char* kReplayFooter =
     "LOG is a file of 'glissade record' or 'glissade demo --record'. If LOG consists of several joined logs, all runs\n"
-    "are repeated. Offline, each tick of the haptic loop and each answer of the simulation takes the recorded input\n"
-    "and must give the same bytes. If a result differs, the error names it, and the exit code is 1. If the log is\n"
-    "damaged, everything before the damage is repeated, and the exit code is 1. The scene must not have changed.\n"
+    "are repeated. Offline, each tick of the haptic loop and each answer of the simulation is repeated from the\n"
+    "recorded input, and must give the same bytes. If a result differs, the error names it, and the exit code is 1.\n"
+    "If the log is damaged, only its part before the damage is repeated, and the exit code is 1. The scene must not\n"
+    "have changed.\n"
     "\n"
     "With --lcm, the command sends the states of the recorded gloves to another server. The gloves wait for the first\n"
-    "command of this server, take the recorded time, and do not yield to forces. Any log with GLOVE_INFO and\n"
+    "command of this server, move at the recorded pace, and do not yield to forces. Any log with GLOVE_INFO and\n"
     "GLOVE_STATE can be used, such as a log of lcm-logger.\n"
     "With --view, a browser shows the run at the recorded pace.\n"
     "For the keys of --json, see docs/file_formats.md in the sources.\n"
@@ -44,9 +45,8 @@ constexpr const char* kReplayFooter =
     "  glissade demo --seconds 3 --record run.lcmlog && glissade replay run.lcmlog\n"
     "  glissade demo --offline --seconds 2 --record offline.lcmlog && glissade replay offline.lcmlog --json\n"
     "  glissade demo --offline --seconds 2 --record door.lcmlog && glissade replay door.lcmlog --report report\n"
-    "With the files of 'glissade example' and the log of 'glissade demo --seconds 3 --record demo.lcmlog', for a "
-    "server\n"
-    "that the recorded glove leads:\n"
+    "With the files of 'glissade example' and the log of 'glissade demo --seconds 3 --record demo.lcmlog', the\n"
+    "recorded glove leads the hand of a server:\n"
     "  glissade run car_door.yaml --seconds 2 & glissade replay demo.lcmlog --lcm 'udpm://239.255.76.67:7667?ttl=0'";
 
 struct ReplayOptions {
@@ -91,8 +91,8 @@ int repeat(const ReplayOptions& options) {
   } else {
     std::cout << "glissade replay: " << (outcome.runs > 1 ? std::to_string(outcome.runs) + " runs, " : "")
               << outcome.ticks << " ticks and " << outcome.contact_sets << " contact sets of "
-              << fixed_text(in_seconds(outcome.recorded), 3) << " s are the same to the bit, " << fixed_text(speed, 1)
-              << " times as fast as then\n";
+              << fixed_text(in_seconds(outcome.recorded), 3) << " s are bit-identical, " << fixed_text(speed, 1)
+              << " times as fast as the recorded run\n";
     if (!page.empty()) std::cout << "report: " << page << '\n';
   }
   if (!outcome.difference.empty()) throw std::runtime_error(options.log + ": " + outcome.difference);

@@ -39,9 +39,9 @@ constexpr const char* kRunFooter =
     "GLOVE_STATE, the hand grasps a part rigidly. The part stays at its pose in the scene. The first glove takes the\n"
     "first part. The second glove takes the second part or, if there is only one part, the same part. --hold chooses\n"
     "other parts. If the glove reports its grip, a hand that opens lets go, and a hand that closes takes the nearest\n"
-    "part. Parts that no hand holds lie still. With --fingers, hands grasp the parts round which their fingers close,\n"
-    "without any gesture. The joint angles of the gloves move the fingers, and the fingers feel contacts. Objects\n"
-    "with 'moves: FILE' follow their own scripts, from the first state on.\n"
+    "part. Parts that no hand holds do not move. With --fingers, hands grasp the parts round which their fingers\n"
+    "close, without any gesture. The joint angles of the gloves move the fingers, and the fingers feel contacts. From\n"
+    "the first state on, objects with 'moves: FILE' follow their own scripts.\n"
     "The server sends commands to the gloves on GLOVE_COMMAND. For viewers and loggers, it sends the state of every\n"
     "tick, i.e. of every cycle of the haptic loop, on HAPTIC_STATE. When a force fades, for example because a glove's\n"
     "state is old, the server prints the reason to standard error (see docs/safety.md in the sources).\n"
@@ -103,7 +103,7 @@ std::vector<SessionHand> hands_of(const RunOptions& options, const HapticScene& 
     hands.push_back(hand);
   }
   if (hands.size() > hands::kMaxHands) {
-    throw std::invalid_argument("--device: " + std::to_string(hands.size()) + " gloves are too many; at most " +
+    throw std::invalid_argument("--device: " + std::to_string(hands.size()) + " gloves are too many: at most " +
                                 std::to_string(hands::kMaxHands) + " can be used");
   }
   for (const std::string& hold : options.holds) {
@@ -159,7 +159,7 @@ class Announcer {
       told_to_await_ = news.awaited_device;
       const bool is_only = settings_.hands.size() == 1;
       line_.say(prefix_ + "waiting for " + (is_only ? "a glove" : "glove " + std::to_string(*news.awaited_device)) +
-                " at " + url_ + (settings_.view_port ? "; the page of --view is there then" : ""));
+                " at " + url_ + (settings_.view_port ? "; the page of --view opens after that" : ""));
     }
     if (news.ticks == 0 && bus_.refused_packets() > 0 && !std::exchange(said_that_it_refuses_, true)) {
       line_.say(prefix_ + "packets are refused: they come from another machine or interface, or have another key");
@@ -230,8 +230,8 @@ void add_options(CLI::App& command_line, RunOptions& options) {
       ->capture_default_str();
   command_line.add_option("--hold", options.holds,
                           "GLOVE=PART: the part that the hand in this glove takes; GLOVE= for none");
-  CLI::Option* fingers = command_line.add_flag(
-      "--fingers", options.fingers, "Hands grasp with their fingers, by the joint angles that the gloves measure");
+  CLI::Option* fingers = command_line.add_flag("--fingers", options.fingers,
+                                               "Hands grasp with their fingers; the gloves measure the joint angles");
   fingers->excludes("--hold");
   command_line
       .add_option("--hand", options.hand_files,
@@ -251,15 +251,15 @@ void add_options(CLI::App& command_line, RunOptions& options) {
                   "sleeping, so that the tick starts on time; at most half of the period")
       ->capture_default_str();
   command_line.add_option("--flight-recorder", options.record.flight,
-                          "File for the last seconds of the run: written when a glove or the simulation fails, and on "
-                          "SIGUSR1; later files get a number");
+                          "File for the last seconds of the run, written when a glove or the simulation fails, and on "
+                          "SIGUSR1. The names of later files get a number");
   add_view_option(command_line, options.view_port);
   command_line.add_flag("--json", options.json, "Print the summary as JSON");
   command_line.add_flag("--verbose", options.verbose, kVerboseHelp);
   command_line.add_option(
       "--report", options.report,
       "Folder for a page, index.html, with the summary, the run in three dimensions, and plots of force, "
-      "torque, lag (distance from the visible part to the pose of the hand's target), contacts "
+      "torque, lag (distance from the visible part to the pose to which the hand pulls it), contacts "
       "and states");
 }
 

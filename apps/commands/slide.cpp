@@ -53,8 +53,8 @@ constexpr const char* kSlideFooter =
     "Output: one row per millisecond. A row has the time, the poses of the ghost and of the visible part (where the\n"
     "part is shown, never inside an obstacle), the wrench on the hand about the part's reference point (the centre of\n"
     "its bounding box, or its 'compliance_point_m') in world axes, the number of contacts with a force, and the state\n"
-    "of the part. If no table goes to the standard output, a line on it says whether the part reached its goal, and\n"
-    "at which force. For several trajectories, a last line says how many reached the goal.\n"
+    "of the part. If no table goes to the standard output, a line there says whether the part reached its goal, and\n"
+    "the greatest force on the hand. With several trajectories, a last line says how many of them reached the goal.\n"
     "\n"
     "Methods:\n"
     "  projection          the default: projects the wanted motion on the motions that the contacts allow, and takes\n"
@@ -68,8 +68,8 @@ constexpr const char* kSlideFooter =
     "which stays the same as long as the contact lasts; the triangle and the feature (face, edge or vertex of the\n"
     "mesh) of part and obstacle; the contact point on each; the normal from obstacle to part; gap, force along the\n"
     "normal, age and friction. --patches writes one row per patch and millisecond. A patch unites the contacts with\n"
-    "one obstacle that lie in one plane. A row has the number of these contacts, the centre and the sum of the forces\n"
-    "on the part, and the extent of the patch.\n"
+    "one obstacle that lie in one plane. A row has the number of contacts in the patch, the centre and the sum of\n"
+    "their forces on the part, and the extent of the patch.\n"
     "\n"
     "Moving objects: an object of the scene with 'moves: FILE' (at most three objects) follows the trajectory in this\n"
     "file, on the same clock as --trajectory. Before the first row and after the last row of this file, the object\n"
@@ -78,14 +78,14 @@ constexpr const char* kSlideFooter =
     "\n"
     "Assembly check: with several trajectories, --summary or --report, the output has one row per trajectory. A row\n"
     "says whether the part reached the goal of the scene (without a goal: the last row of the trajectory), and how\n"
-    "far from the goal it ended. A row also has the greatest force and torque on the hand, the smallest clearance and\n"
-    "its time, and the time with contact forces. If the part or a moving object is in another object at the start of\n"
-    "a trajectory, this trajectory has a line on standard error instead of a row, and the exit code is 1. With\n"
-    "--require-goal, the exit code is 3 if a trajectory does not bring the part to the goal. Rows have the order of\n"
-    "the trajectories, and are written as soon as they are known.\n"
+    "far from the goal the part ended. A row also has the greatest force and torque on the hand, the smallest\n"
+    "clearance and its time, and the time with contact forces. If the part or a moving object is in another object at\n"
+    "the start of a trajectory, the command prints a line on standard error instead of a row for this trajectory, and\n"
+    "the exit code is 1. With --require-goal, the exit code is 3 if a trajectory does not bring the part to the goal.\n"
+    "Rows are in the order of the trajectories, and each row is written as soon as it is known.\n"
     "\n"
-    "Time: if finely tessellated curved faces lie within micrometres of each other, as in a screw thread, a call may\n"
-    "take tens of milliseconds for each simulated millisecond; for a real bolt it takes seventy.\n"
+    "Time: if finely tessellated curved faces lie within micrometres of each other, as in a screw thread, each\n"
+    "simulated millisecond can take tens of milliseconds (seventy for a real bolt).\n"
     "\n"
     "For all columns, see docs/file_formats.md in the sources.\n"
     "\n"
@@ -255,7 +255,7 @@ void check_files(const SlideOptions& options) {
                                                                        {"--moving", tables.moving}};
   for (const auto& [option, file] : of_one_motion) {
     if (options.trajectories.size() == 1 || file.empty()) continue;
-    throw std::invalid_argument(option + ": applies to one trajectory; several write to --summary and --report");
+    throw std::invalid_argument(option + ": applies to one trajectory only; for several, use --summary and --report");
   }
   std::vector<std::pair<std::string, std::string>> outputs = of_one_motion;
   outputs.emplace_back("--summary", options.summary);

@@ -137,7 +137,7 @@ void add_view_command(CLI::App& app, Command& chosen) {
   command->add_option("--seconds", options->seconds, "Duration in seconds; 0: until Ctrl-C")
       ->check(not_negative())
       ->capture_default_str();
-  command->add_option("--device", options->devices, "Numbers of the server's gloves, in its order")
+  command->add_option("--device", options->devices, "Numbers of the server's gloves, in the server's order")
       ->check(glove_number())
       ->capture_default_str();
   CLI::Option* fingers = command->add_flag("--fingers", options->fingers, "The server runs with --fingers: show hands");

@@ -228,7 +228,7 @@ TEST_F(TwoHands, FeelNothingThatJumpsAndNothingThatLasts) {
 TEST_F(TwoHands, AreRepeatedToTheBit) {
   const ProgramResult replay = test_support::glissade({"replay", log()});
   EXPECT_EQ(replay.exit_code, 0) << replay.standard_error;
-  EXPECT_THAT(replay.standard_output, HasSubstr("same to the bit"));
+  EXPECT_THAT(replay.standard_output, HasSubstr("bit-identical"));
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ TEST_F(RecordingCommands, AnOfflineRunIsRepeatedToTheBit) {
   EXPECT_EQ(repeated["ticks"], 500);
   EXPECT_EQ(repeated["contact_sets"], 500);
   EXPECT_NEAR(repeated["recorded_s"].get<double>(), 0.499, 1e-9);
-  EXPECT_THAT(test_support::glissade({"replay", log_}).standard_output, HasSubstr("same to the bit"));
+  EXPECT_THAT(test_support::glissade({"replay", log_}).standard_output, HasSubstr("bit-identical"));
 }
 
 TEST_F(RecordingInRealTime, IsRepeatedToTheBit) {

@@ -73,7 +73,7 @@ class RecordingProcesses : public testing::Test {
   static void expect_same(const std::string& path) {
     const ProgramResult result = test_support::glissade({"replay", path});
     EXPECT_EQ(result.exit_code, 0) << result.standard_error;
-    EXPECT_THAT(result.standard_output, HasSubstr("same to the bit"));
+    EXPECT_THAT(result.standard_output, HasSubstr("bit-identical"));
   }
 
   test_support::TemporaryFolder folder;
