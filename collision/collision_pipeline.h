@@ -1,7 +1,7 @@
 #pragma once
 
 /// The collision pipeline (paper §2). In each frame, the pipeline finds the pairs of objects of a world that meet. The
-/// cost of a frame grows with the number of near pairs that moved, not with the number of objects.
+/// cost of a frame grows with the number of near pairs that contain a moved object, not with the number of all objects.
 ///
 ///   queue → interest matrix → neighbor finding → separating planes → DOP-trees
 ///
@@ -21,14 +21,14 @@
 
 namespace glissade::collision {
 
-/// Deterministic: the answers of a frame depend only on the objects, their poses, the enabled pairs and the distance of
-/// the frame. They do not depend on the number of threads or on earlier frames. Not thread-safe, but other threads may
+/// Deterministic: the pairs that a frame finds depend only on the objects, their poses, the enabled pairs and the
+/// distance of the frame, not on the number of threads or on earlier frames. Not thread-safe, but other threads may
 /// edit the world and move its objects at any time. If memory runs out in a frame that several threads share, the
 /// program ends.
 class CollisionPipeline {
  public:
   /// The pipeline becomes the only consumer of `world`: only the pipeline may call `World::take_changes`. World and
-  /// clock must outlive the pipeline. The clock serves measurements only. Throws std::invalid_argument if the
+  /// clock must outlive the pipeline. The clock is used for measurements only. Throws std::invalid_argument if the
   /// `greatest_distance` of `options` is negative or not finite, or if the number of threads is negative.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
@@ -37,9 +37,9 @@ class CollisionPipeline {
 
   /// Computes a frame with the newest poses. Finds all enabled pairs of objects that meet. Two objects meet if their
   /// distance is at most `distance` (metres). With `distance` 0, objects meet if their surfaces touch or intersect. The
-  /// answers are exact: they equal the answers of the queries of `dop_query.h` at the pose X_AB that `relative_pose`
-  /// computes. If two objects both have a selection of triangles (see `ObjectDescription`), then with
-  /// PairQuery::kClosePairs they meet only if a selected pair of triangles is within `distance`. The other values of
+  /// result is exact: it equals the results of the exact queries of `dop_query.h` at the pose X_AB that `relative_pose`
+  /// computes. With PairQuery::kClosePairs, two objects that both have a selection of triangles (see
+  /// `ObjectDescription`) meet only if a selected pair of triangles is within `distance`. The other values of
   /// `PairQuery` ignore selections. The next call overwrites the result. Throws std::invalid_argument if `distance` is
   /// negative, not a number, or greater than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
@@ -54,7 +54,7 @@ class CollisionPipeline {
 
 struct CollisionThreadOptions {
   PipelineOptions pipeline;
-  /// The `distance` (metres) of `CollisionPipeline::step`. At most `pipeline.greatest_distance`.
+  /// The argument `distance` (metres) of `CollisionPipeline::step`, at most `pipeline.greatest_distance`.
   double distance = 0.0;
   /// Time from the beginning of one frame (i.e. one call of `CollisionPipeline::step`) to the beginning of the next
   /// frame. If a frame takes longer than the period, the next frame begins at once. Missed frames are not computed
@@ -64,7 +64,7 @@ struct CollisionThreadOptions {
   int readers = 1;
 };
 
-/// Reads the frames of a `CollisionThread`. One thread at a time may use a reader. All functions are wait-free and
+/// Reads the frames of a `CollisionThread`. Only one thread at a time may use a reader. All functions are wait-free and
 /// allocate nothing.
 class FrameReader {
  public:
@@ -80,8 +80,8 @@ class FrameReader {
   realtime::TripleBuffer<FrameResult> frames_;
 };
 
-/// Computes frames from construction to `stop` or destruction. Thread-safety: one thread owns the object, each reader
-/// serves one thread, and any thread may use the world.
+/// Computes frames from construction to `stop` or destruction. Thread-safety: one thread owns the object, only one
+/// thread may use each reader, and any thread may use the world.
 class CollisionThread {
  public:
   /// World and clock must outlive the thread. No other pipeline may use this world. Throws std::invalid_argument for

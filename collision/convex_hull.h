@@ -18,8 +18,8 @@ namespace glissade::collision {
 
 struct HullFacets;
 
-/// A convex hull. The points may be coplanar, collinear or coincident. Immutable after construction, so objects and
-/// threads may share it.
+/// A convex hull. The input points may be coplanar, collinear or coincident. Immutable after construction, so objects
+/// and threads may share it.
 class ConvexHull {
  public:
   /// The hull of points in the frame of the object (metres). Throws std::invalid_argument if there is no point or if a
@@ -58,7 +58,7 @@ class ConvexHull {
 
   /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
   /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
-  /// `climbing_error`. The cost is proportional to the number of corners on the path and of their neighbors. From an
+  /// `climbing_error`. The cost is proportional to the number of neighbors of all corners on the path. From an
   /// arbitrary start, the path has about √n corners. The path is very short if `start` is the result for a similar
   /// direction.
   std::int32_t support(const Eigen::Vector3d& direction, std::int32_t start) const;
@@ -67,8 +67,8 @@ class ConvexHull {
   /// within a few degrees of `direction`. Cost O(1).
   std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
 
-  /// Upper bound (metres) of the error of `support`. Another corner may be farther along the direction by at most this
-  /// length. The search stops where rounding hides the difference between neighbors, as on narrow facets.
+  /// Upper bound (metres) of the error of `support`. No corner is farther along the direction by more than this length.
+  /// The search can stop too early where rounding hides the difference between neighbors, as on narrow facets.
   double climbing_error() const { return climbing_error_; }
 
   /// The corner farthest along `direction`, found by examining all corners. Cost O(n).
@@ -86,7 +86,7 @@ class ConvexHull {
   void take_corners(std::span<const Eigen::Vector3d> points, const std::vector<Edge>& edges);
 
   std::vector<Eigen::Vector3d> vertices_;
-  std::vector<std::int32_t> first_neighbor_;  ///< by corner; one more entry for the end of the last list
+  std::vector<std::int32_t> first_neighbor_;  ///< start of each corner's list in `neighbors_`, and the end of the last
   std::vector<std::int32_t> neighbors_;
   std::vector<std::int32_t> starts_;  ///< by cell
   int dimension_ = 0;
@@ -126,7 +126,7 @@ inline std::int32_t ConvexHull::support(const Eigen::Vector3d& direction, std::i
   return best;
 }
 
-/// The method of the test of two hulls. The test runs if the plane of the last query no longer separates the hulls.
+/// The method that tests two hulls if the plane of the last query no longer separates them.
 enum class HullTest : std::uint8_t {
   kExact,  ///< complete GJK, started from the simplex of the last query; exact up to rounding, see `hulls_apart`
   /// Up to 300 learning steps of a perceptron (paper §2.2). Each step turns a trial plane. The answer "apart" is
@@ -145,7 +145,7 @@ struct HullMemory {
   double reach_A = 0.0;  ///< extent of A along n_A from the origin of A, metres
   double reach_B = 0.0;  ///< extent of B along −n_B from the origin of B, metres
 
-  /// A lower bound (metres) of the distance of the hulls if the last answer was "apart"; otherwise 0. The bound is
+  /// Lower bound (metres) of the distance between the hulls; 0 unless the last answer was "apart". The bound is
   /// measured along n_gap_A, a unit vector from A to B in the frame of A.
   double gap = 0.0;
   Eigen::Vector3d n_gap_A = Eigen::Vector3d::Zero();
@@ -155,22 +155,22 @@ struct HullMemory {
   /// The last simplex of GJK. Each point has a corner of A and a corner of B.
   std::array<std::array<std::int32_t, 2>, 4> simplex{};
   std::int8_t simplex_count = 0;
-  std::int8_t planes_to_leave = 0;  ///< number of further new planes whose gap the test does not try to widen
+  std::int8_t planes_to_leave = 0;  ///< number of coming new planes that the test does not try to improve
   bool has_plane = false;
-  bool by_centers = false;  ///< the line between the centres gave the last answer, after a large movement
-  bool met = false;         ///< the last answer was that the hulls may meet
+  bool by_centers = false;  ///< whether the last answer came from the line between the centres, after a large movement
+  bool met = false;         ///< whether the last answer was that the hulls may meet
 
-  std::int32_t loops = 0;  ///< learning steps and rounds of GJK in the last query
+  std::int32_t loops = 0;  ///< number of learning steps and GJK rounds in the last query
 };
 
 /// Whether two hulls are certainly apart. X_AB is the pose of B in the frame of A. Touching hulls are not apart. With
 /// HullTest::kExact, the answer is exact for the points from which the hulls were made, with one exception: if the gap
-/// is no larger than rounding errors, the answer is false. Such gaps are at most the `ConvexHull::outside` of both
-/// hulls plus 1e-13 of the sum of all coordinates involved (1e-11 of this sum for hulls like needles).
+/// is within the rounding error, the answer is false. The rounding error is at most the sum of both
+/// `ConvexHull::outside` plus 1e-13 of the sum of all coordinates involved (1e-11 for hulls like needles).
 ///
-/// Allocates nothing. The cost is about 20 ns while the plane or simplex in the `HullMemory` decides. Otherwise the
-/// cost is less than a microsecond after a small movement, and some microseconds after a large movement. The cost is
-/// always bounded. Different threads may query the same hulls, each with its own `HullMemory`.
+/// Allocates nothing. The cost is about 20 ns if the plane or simplex in the `HullMemory` still gives the answer.
+/// Otherwise the cost is less than a microsecond after a small movement, and some microseconds after a large movement.
+/// The cost is always bounded. Different threads may query the same hulls, each with its own `HullMemory`.
 bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
                  HullTest test = HullTest::kExact) noexcept;
 

@@ -4,17 +4,17 @@
 /// intersect or are near, and how far apart the soups are. Another query finds a translation that separates the soups.
 ///
 /// Each query takes the pose X_AB of tree B in the frame of tree A. The query transforms the vertices of B by X_AB in
-/// double precision. The answer equals the answer of exact real arithmetic on these transformed vertices and the
-/// vertices of A. With a tolerance or distance above 0, computed distances of triangles are accurate to a few units in
-/// the last place of the largest coordinate. Touching counts as intersecting. Only triangles of positive area take
-/// part.
+/// double precision. The answer is the result of exact real arithmetic on these transformed vertices and the vertices
+/// of A. However, if a tolerance or distance is above 0, computed distances are accurate only to a few units in the
+/// last place of the largest coordinate. Touching counts as intersecting. Only triangles of positive area take part.
 ///
 /// Each query throws std::invalid_argument in these cases:
 /// - The trees were built with different options.
 /// - The distance is negative or not a number.
 /// - The pose is not finite.
 /// - The matrix R of the pose is a reflection.
-/// - The absolute entries of RᵀR − 1 add up to 1e-3 or more. A smaller sum makes the query slower, but not less exact.
+/// - The absolute entries of RᵀR − 1 add up to 1e-3 or more. Below 1e-3, a sum makes queries slower, but not less
+///   exact.
 
 #include <limits>
 #include <vector>
@@ -41,16 +41,16 @@ void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eige
                         CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
-/// ascending order of the triangle indices. If `selection` has an entry for each tree, the answer has only selected
-/// pairs, and the cost grows with the number of selected pairs. A missing entry selects all triangles of its tree, and
-/// therefore all pairs. Throws std::invalid_argument for a selection that was made for another tree.
+/// ascending order of the triangle indices. If `selection` has an entry for each tree, the answer contains only
+/// selected pairs, and the cost grows with the number of selected pairs. A missing entry selects all triangles of its
+/// tree, and therefore all pairs. Throws std::invalid_argument for a selection that was made for another tree.
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
                   CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
 
-/// The least distance of a triangle of A and a triangle of B, if this distance is less than `limit` (metres). The cost
-/// hardly depends on the distance. A smaller `limit` reduces the cost.
+/// The least distance between a triangle of A and a triangle of B, if this distance is less than `limit` (metres). The
+/// cost hardly depends on the distance. A smaller `limit` reduces the cost.
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                       QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
 MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
@@ -66,16 +66,16 @@ struct Penetration {
 };
 
 /// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
-/// apart. A query at the translated pose has confirmed this.
+/// apart. A query at the translated pose confirms the result.
 ///
-/// Because of this confirmation, the depth is a guaranteed upper bound of the shortest translation that separates the
-/// two surfaces. A shorter translation may exist. The search tries directions of the whole sphere, the normals of
+/// Because of this confirmation, the depth is a guaranteed upper bound of the length of the shortest translation that
+/// separates the two surfaces. A shorter one may exist. The search tries directions of the whole sphere, the normals of
 /// intersecting triangles, the axes of both frames and the diagonals between the axes. Then the search refines the best
 /// direction to a few thousandths of a radian. Along axes and diagonals, the search finds the nearest free place,
-/// however small. An example is the middle of a hole. Along other directions, the search may miss small free places.
-/// For convex bodies, the depth is within a few per cent of the least depth. Meshes are surfaces without an inside. So
-/// a body inside a closed surface is apart from this surface unless body and surface touch. The shortest way out of a
-/// shell may lead inward. Only the translated pose is tested. On the path to this pose, B may meet A or other objects.
+/// however small, such as the middle of a hole. Along other directions, the search may miss small free places. For
+/// convex bodies, the depth is within a few per cent of the least depth. Meshes are surfaces without an inside. So a
+/// body in a closed surface counts as apart unless it touches the surface, and the shortest way out of a shell may lead
+/// inward. Only the translated pose is tested. On the path to this pose, B may meet A or other objects.
 ///
 /// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws in the same cases as the other
 /// queries.

@@ -28,7 +28,7 @@ enum class Realignment {
   kBruteForce,  ///< projects every vertex of a node on every direction: O(k²) (paper §2.1.1)
 };
 
-/// Options of construction. The defaults are the fastest values. Other values serve comparisons.
+/// Options of construction. The defaults are the fastest values. Other values are for comparisons.
 struct DopTreeOptions {
   int directions = 24;  ///< k, the number of half-spaces: 6, 14, 18, 24 or 26
   /// Adds to each child a slab along the principal axis of its triangles' normals. A query tests the slab if the slab
@@ -40,8 +40,7 @@ struct DopTreeOptions {
 };
 
 /// The children of a node. Children that are nodes come first, then children that are leaves. Nodes and leaves of a
-/// tree are numbered separately. The nodes among the children have consecutive numbers. The leaves among the children
-/// also have consecutive numbers.
+/// tree are numbered separately. The nodes among the children have consecutive numbers, and so have the leaves.
 struct TreeNode {
   std::uint32_t first_node;  ///< number of the first child that is a node
   std::uint32_t first_leaf;  ///< number of the first child that is a leaf
@@ -86,7 +85,7 @@ class DopTree {
   ~DopTree();
 
   /// Fits all DOPs to the present vertices. Call this after moving vertices of the mesh. The vertex indices of
-  /// triangles must be unchanged. Queries stay exact, but become slower as triangles below one node move apart.
+  /// triangles must be unchanged. Queries stay exact, but become slower if triangles below a node have moved apart.
   /// Allocates nothing. Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would
   /// reject; the tree is then unchanged.
   void refit();
@@ -99,7 +98,7 @@ class DopTree {
   /// The node with this number, which must be below `node_count`. Node 0 is the root, which has at least one child.
   TreeNode node(std::uint32_t number) const;
   /// The triangles (indices into the mesh) of the leaf with this number, which must be below `leaf_count`. A negative
-  /// entry is an unused place or a triangle without area.
+  /// entry stands for an unused place or for a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
   /// A number that identifies the tree and its fit. The number is unique in this process and never 0. Construction and

@@ -10,9 +10,9 @@
 /// bytes a triangle.
 ///
 /// A file is valid only for the same vertices and triangles, the same options, and the same version of the format. The
-/// version of the format also changes when the method of building changes. The byte order is the same on every machine.
-/// The last eight bytes are a checksum of all other bytes. The checksum detects every change of a single byte, and
-/// misses one in 2^64 of all other changes.
+/// version of the format also changes when the algorithm that builds trees changes. The byte order is the same on every
+/// machine. The last eight bytes are a checksum of all other bytes. The checksum detects every change of a single byte,
+/// and all but one in 2^64 of the other changes.
 
 #include <cstddef>
 #include <filesystem>
@@ -46,8 +46,8 @@ struct CachedTree {
 std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
 
 /// Writes or replaces the file. The file has another name until it is complete. A file that cannot be completed is
-/// deleted. So `path` never names an incomplete file. Only a regular file is replaced, not a symbolic link, for
-/// example. Throws std::runtime_error with one line that names the file and the reason. May block on the disk.
+/// deleted. So `path` never names an incomplete file. Replaces regular files only, and not, for example, symbolic
+/// links. Throws std::runtime_error with one line that names the file and the reason. May block on the disk.
 void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
 /// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error, see `CachedTree::state`.
@@ -55,7 +55,7 @@ void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
                            const DopTreeOptions& options = {});
 
-/// Like `read_tree_cache`, from the bytes of a file.
+/// Like `read_tree_cache`, but takes the bytes of a file instead of its path.
 CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
                                  const DopTreeOptions& options = {});
 

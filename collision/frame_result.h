@@ -32,8 +32,8 @@ struct PipelineOptions {
   double greatest_distance = 0.0;
   /// Number of threads that work on a frame, including the calling thread. 0 means one thread for each processor.
   int threads = 0;
-  /// The meter that receives the work of the exact queries; null: no meter. The meter must outlive the pipeline. With
-  /// several threads, no meter is used.
+  /// The meter that receives the work of the exact queries; null: no meter. The meter must outlive the pipeline. A
+  /// pipeline with several threads ignores the meter.
   WorkMeter* meter = nullptr;
 };
 
@@ -61,9 +61,9 @@ struct StageReport {
 };
 
 /// Work of one frame. Neighbors are objects whose fattened boxes overlap. A fattened box is an axis-aligned bounding
-/// box, enlarged to leave the object some room to move. Stages process only pairs that have just been enabled, and
-/// pairs with an object that is new or has moved. So objects at rest cost nothing. But if the distance given to the
-/// step has changed, stages process all pairs of neighbors.
+/// box, enlarged to leave the object some room to move. The stages process a pair only if it has just been enabled, or
+/// if one of its objects is new or has moved. So objects at rest cost nothing. However, if the distance given to the
+/// step has changed, the stages process all pairs of neighbors.
 struct FrameReport {
   std::int64_t objects = 0;    ///< objects in the world
   std::int64_t neighbors = 0;  ///< pairs of neighbors, including pairs at rest
@@ -97,7 +97,7 @@ struct FrameReport {
 /// The pairs of objects that meet in one frame, with the detail that the `PairQuery` of the pipeline requires.
 struct FrameResult {
   std::uint64_t frame = 0;                    ///< number of the frame, from 1; 0: no frame yet
-  std::chrono::nanoseconds time_of_poses{0};  ///< time on the pipeline's clock when the poses were taken
+  std::chrono::nanoseconds time_of_poses{0};  ///< time at which the poses were taken, on the pipeline's clock
 
   /// Age of the poses at the time `now` on the pipeline's clock.
   std::chrono::nanoseconds age(std::chrono::nanoseconds now) const { return now - time_of_poses; }
@@ -126,8 +126,8 @@ struct FrameResult {
   }
 };
 
-/// The pose X_AB of object B in the frame of object A. The pipeline uses the same computation, so results can be
-/// compared bit for bit.
+/// The pose X_AB of object B in the frame of object A. The pipeline calls this function too, so results can be compared
+/// bit for bit.
 Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 
 }  // namespace glissade::collision

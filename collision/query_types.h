@@ -50,16 +50,16 @@ struct QueryCounters {
   std::int64_t triangle_tests = 0;  ///< pairs of triangles tested
 };
 
-/// Receives the work of a query while the query runs. The thread of the query calls the meter. So a program can observe
-/// the progress of a query, or make the query wait. The unit is about a nanosecond of an ordinary processor. The work
-/// depends on the trees, on their poses and on what a coherent workspace remembers. It does not depend on the speed of
-/// the machine. The work may differ a little between instruction sets, because conservative tests in single precision
-/// may keep different pairs.
+/// Receives the work of a query while the query runs. Called in the thread of the query, so a meter can report the
+/// progress of the query, or make the query wait. The unit is about a nanosecond on an ordinary processor. The work
+/// depends on the trees, on their poses and on what a coherent workspace remembers, but not on the speed of the
+/// machine. The work may differ a little between instruction sets, because conservative tests in single precision may
+/// keep different pairs.
 class WorkMeter {
  public:
-  /// Adds the work just done or about to be done on a pair of nodes, on a pair of leaves, or on the exact tests of up
-  /// to 16 triangle pairs of two leaves. May throw an exception to end the query. After such an exception, a pipeline
-  /// cannot be used any more.
+  /// Adds the `work` on a pair of nodes, on a pair of leaves, or on the exact tests of up to 16 triangle pairs of two
+  /// leaves. Called just before or just after this work. May throw an exception to end the query. After such an
+  /// exception, a pipeline cannot be used any more.
   virtual void spend(std::int64_t work) = 0;
 
  protected:
@@ -88,7 +88,7 @@ class QueryWorkspace {
 };
 
 /// A workspace that exploits temporal coherence. The workspace remembers the last query of one pair of trees. If the
-/// trees have moved little, the next query is much cheaper. The answers are the same to the bit as with a
+/// trees have moved little, the next query is much cheaper. The answers are bit-identical to those with a
 /// `QueryWorkspace`. Use one workspace for each pair of trees. A workspace forgets the last query if the next query has
 /// other trees, or a tree that was refitted. Not thread-safe.
 class CoherentWorkspace {
@@ -117,18 +117,18 @@ class TriangleSelection {
  public:
   /// Calls both functions once for each triangle, with the index of the triangle in the mesh. Without
   /// `is_half_selected`, no triangle is half selected. The selection is valid for `tree` and for copies of `tree`, also
-  /// after a refit. Throws std::invalid_argument for an empty function `is_selected`. Cost O(n).
+  /// after a refit. Throws std::invalid_argument if the function `is_selected` is empty. Cost O(n).
   TriangleSelection(const DopTree& tree, const std::function<bool(std::int32_t)>& is_selected,
                     const std::function<bool(std::int32_t)>& is_half_selected = {});
 
-  /// Marks a set of triangles in the nodes and leaves of a tree.
+  /// Marks of a set of triangles, stored for the nodes and leaves of a tree.
   struct Marks {
     std::vector<std::uint8_t> nodes;   ///< by node: bit c is set if child c has a marked triangle below it
     std::vector<std::uint8_t> leaves;  ///< by leaf: bit t is set if triangle t of the leaf is marked
   };
-  /// Marks the selected triangles.
+  /// The marks of the selected triangles.
   const Marks& selected() const { return selected_; }
-  /// Marks the selected and the half selected triangles.
+  /// The marks of the selected and the half selected triangles.
   const Marks& at_least_half() const { return at_least_half_; }
   /// By node: bit c is set if all triangles below child c are selected or half selected.
   const std::vector<std::uint8_t>& whole_children() const { return whole_children_; }

@@ -64,7 +64,7 @@ struct WorldChanges {
 /// the world that returned it.
 class World {
  public:
-  /// A world for at most `capacity` objects. The world takes about 0.9 kB for each of them. Throws
+  /// A world for at most `capacity` objects. The memory of the world is about 0.9 kB times `capacity`. Throws
   /// std::invalid_argument unless `capacity` is 1 to 1,000,000.
   explicit World(int capacity = 4096);
   ~World();
@@ -76,8 +76,8 @@ class World {
   // Editors: any thread may call these functions. Editors may wait for each other, and for the consumer while it copies
   // edits.
 
-  /// Adds an object. Throws std::length_error if the world is full. The slot of a removed object stays occupied while a
-  /// thread is inside `move` for this object. Throws std::invalid_argument for:
+  /// Adds an object. Throws std::length_error if the world is full. A removed object still occupies its slot as long as
+  /// a thread is inside `move` for this object. Throws std::invalid_argument for:
   /// - a null tree
   /// - a tree with other options than the trees of the objects in this world
   /// - a selection of another tree
@@ -86,14 +86,14 @@ class World {
   ObjectId add(const ObjectDescription& object);
 
   /// Removes an object and forgets its disabled pairs. Throws std::invalid_argument for a stale id. The consumer's next
-  /// take releases the tree. But if the consumer has never taken the object, `remove` releases the tree.
+  /// take releases the tree. However, if no take has ever included the object, `remove` itself releases the tree.
   void remove(ObjectId id);
 
   /// The collision interest matrix. The pipeline compares enabled pairs of objects only. A pair is enabled if its two
   /// groups are enabled for each other and the pair itself is not disabled. Initially, all groups and pairs are
   /// enabled. All four functions are symmetric, and `group_a` may equal `group_b`. `enable_pair` undoes `disable_pair`,
   /// but does not override groups. All four functions throw std::invalid_argument for a group outside 0 to 63 or a
-  /// stale id. The consumer may take changes between `add` and `disable_pair`. So use groups for objects that must
+  /// stale id. A take of the consumer may happen between `add` and `disable_pair`. So use groups for objects that must
   /// never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);
@@ -104,13 +104,13 @@ class World {
 
   /// Sets the pose of the object in the world. `geometry::rigid_pose` corrects the pose to a rotation and translation.
   /// The consumer's next take sees this pose or a newer pose. Returns false and does nothing for a stale id, for a pose
-  /// that `rigid_pose` rejects, and while another thread moves the same object. If another thread removes the object
-  /// during the call, the result may be true although no take sees the pose.
+  /// that `rigid_pose` rejects, and if another thread is moving the same object. If another thread removes the object
+  /// during the call, `move` may return true although no take ever sees the pose.
   bool move(ObjectId id, const Eigen::Isometry3d& X_WO) noexcept;
 
   // The consumer: only one thread may call these functions.
 
-  /// Updates `objects` to all edits and poses so far, and returns the changes. Waits for at most one edit of an editor,
+  /// Applies all edits and poses so far to `objects`, and returns the changes. Waits for at most one edit of an editor,
   /// and never for movers. If a mover replaces a pose while the consumer reads it, the consumer reads the pose again.
   /// Cost O(changes + capacity / 64), plus a copy of the interest matrix if the matrix has changed. Destroys the trees
   /// of removed objects if no other owner holds them. The next call overwrites the result.

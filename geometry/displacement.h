@@ -13,8 +13,8 @@ namespace glissade::geometry {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 
-/// A displacement of a rigid part: translation `v` of its reference point (metres) and rotation vector `w` about that
-/// point (radians), both in world axes. Over the path parameter t in [0, 1], a point x of the part moves as
+/// A displacement of a rigid part: translation `v` of its reference point (metres) and rotation vector `w` about the
+/// reference point (radians), both in world axes. Over the path parameter t in [0, 1], a point x of the part moves as
 /// x(t) = p + t v + exp(t w) (x − p), where p is the reference point at t = 0.
 struct Displacement {
   Eigen::Vector3d v = Eigen::Vector3d::Zero();
@@ -29,7 +29,7 @@ struct Displacement {
 Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
 
 /// The pose of a part after a displacement from X_WV. `p_Vref` is the reference point in the part's frame. The rotation
-/// of the result stays orthonormal up to rounding, whatever the number of successive displacements.
+/// of the result stays orthonormal up to rounding after any number of successive displacements.
 Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);
 
 /// The displacement (p_G − p_V, log(R_G R_Vᵀ)) that takes the part from X_WV to X_WG. Here p_V and p_G are the
@@ -49,14 +49,14 @@ double motion_bound(const Displacement& d, double radius);
 double fraction_within(const Displacement& d, double radius, double longest);
 
 /// The rigid pose nearest to an almost rigid X = (R, p):
-/// - If the `rotation_defect` of R is below 1e-12, the result is X itself. Every product of a few rotations has such a
-///   defect.
+/// - If the `rotation_defect` of R is below 1e-12, the result is X itself. A product of a few rotations always has such
+///   a small defect.
 /// - If the defect is between 1e-12 and 1e-4, the nearest rotation replaces R.
 /// - For a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond ±1e9 m, the result
 ///   is std::nullopt.
 ///
-/// So the rotation of a result has a defect below 1e-12, and error bounds derived for rotations hold. Cost: about ten
-/// nanoseconds.
+/// So the rotation of every result has a defect below 1e-12, and error bounds derived for rotations apply to it. Cost:
+/// about ten nanoseconds.
 std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
 /// The defect δ: the sum of the absolute entries of RᵀR − 1, where 1 is the identity matrix. The defect is 0 for an

@@ -6,8 +6,8 @@
 /// whole numbers of rows and columns. If `triangle_count` is at least 200 and the shape is neither flat nor slender,
 /// the number of triangles deviates from `triangle_count` by at most 25 %. All vertices lie on the surface, and
 /// adjacent triangles share vertices. Triangles are oriented consistently. The triangles of closed surfaces face
-/// outward (exception: see `make_revolution`). Every function except `make_revolution` throws std::invalid_argument,
-/// naming the argument and its value, for a size that is not positive and finite or a count outside 1 ... 50,000,000.
+/// outward (exception: see `make_revolution`). Every function except `make_revolution` throws std::invalid_argument for
+/// a size that is not positive and finite or a count outside 1 ... 50,000,000. The message has the argument and value.
 
 #include <cstdint>
 #include <span>
@@ -45,7 +45,7 @@ TriangleMesh make_hose(std::span<const Eigen::Vector3d> points, double radius, s
 /// Surface of revolution. The polyline through `profile` is revolved about z in `segments` ≥ 3 steps. The profile has
 /// at least two points (r, z) with r ≥ 0. An end of the profile on the axis (r = 0) closes the surface there. If
 /// `closed` is true, a last segment joins the last point to the first. Triangles face away from the axis where z
-/// increases along the profile. In a drawing with r to the right and z up, they face to the right of the profile's
+/// increases along the profile. In a drawing with r to the right and z up, triangles face to the right of the profile's
 /// direction.
 TriangleMesh make_revolution(std::span<const Eigen::Vector2d> profile, bool closed, int segments);
 

@@ -46,10 +46,10 @@ class MeshTopology {
   std::span<const std::int32_t> neighbors_of(std::int32_t vertex) const { return neighbors_.of(vertex); }
   /// The triangle that owns a vertex; −1 if no triangle with an area uses the vertex.
   std::int32_t owner_of(std::int32_t vertex) const { return vertex_owner_[static_cast<std::size_t>(vertex)]; }
-  /// Whether a vertex can stop another mesh. All vertices can, except those inside a plane patch or inside a straight
-  /// rim. A vertex is inside a plane patch if all its edges are flat. In place of such a vertex, the features on the
-  /// boundary of the patch stop other meshes. A rim is a chain of edges that are not flat. A rim ends at vertices where
-  /// it bends or meets other rims. A vertex is inside a straight rim if three conditions hold:
+  /// Whether a vertex can stop another mesh. All vertices can stop another mesh, except vertices inside a plane patch
+  /// or inside a straight rim. A vertex is inside a plane patch if all its edges are flat. In place of such a vertex,
+  /// the features on the boundary of the patch stop other meshes. A rim is a chain of edges that are not flat. A rim
+  /// ends at vertices where it bends or meets other rims. A vertex is inside a straight rim if three conditions hold:
   /// - Exactly two edges of the vertex are not flat.
   /// - These two edges continue each other without a bend.
   /// - The vertex lies within 0.1 µm of the chord between the ends of the rim.
@@ -61,7 +61,7 @@ class MeshTopology {
   bool owns_stopping_feature(std::int32_t triangle) const {
     return owned_features_[static_cast<std::size_t>(triangle)] != 0;
   }
-  /// Whether two triangles of two meshes can stop each other with features that they own. This is so if at least one
+  /// Whether two triangles of two meshes can stop each other with features that they own. They can if at least one
   /// triangle owns a vertex that can stop another mesh, or if both triangles own edges that are not flat. A vertex
   /// stops any triangle, but an edge stops only edges and vertices.
   bool can_stop_each_other(std::int32_t triangle, const MeshTopology& other, std::int32_t triangle_of_other) const {
@@ -116,7 +116,7 @@ struct MeshReport {
   std::int64_t nonmanifold_edges = 0;   ///< edges of more than two triangles
   std::int64_t inconsistent_edges = 0;  ///< edges that exactly two triangles share and traverse in the same direction
   std::int64_t components = 0;          ///< sets of triangles connected through shared vertices
-  bool is_watertight = false;           ///< no open and no non-manifold edge, and at least one triangle
+  bool is_watertight = false;           ///< true if there are triangles, but no open and no non-manifold edges
   double area = 0;                      ///< in m²
   Eigen::AlignedBox3d bounds;           ///< in metres; empty without triangles
 };

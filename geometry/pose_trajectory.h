@@ -36,7 +36,7 @@ class PoseTrajectory {
   ///   matrix).
   explicit PoseTrajectory(std::vector<TimedPose> rows);
 
-  /// The rows, as given to the constructor or as scaled in time. Valid as long as the trajectory.
+  /// The rows, as given to the constructor or as scaled in time. The span is valid as long as the trajectory exists.
   std::span<const TimedPose> rows() const noexcept { return rows_; }
   std::chrono::nanoseconds first_time() const noexcept { return rows_.front().time; }
   std::chrono::nanoseconds last_time() const noexcept { return rows_.back().time; }
@@ -50,9 +50,9 @@ class PoseTrajectory {
   /// Real-time safe; O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// The same path with the same first time. All later times are scaled so that the path takes `duration`. Throws
-  /// std::invalid_argument if `duration` is not positive, or is so short that two rows would have the same time in
-  /// nanoseconds.
+  /// A trajectory with the same path and the same first time. All later times are scaled so that the path takes
+  /// `duration`. Throws std::invalid_argument if `duration` is not positive, or is so short that two rows would have
+  /// the same time in nanoseconds.
   PoseTrajectory time_scaled(std::chrono::nanoseconds duration) const;
 
  private:

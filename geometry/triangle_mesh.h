@@ -40,11 +40,11 @@ struct TriangleMesh {
 /// meshes stay separate components. Throws std::invalid_argument if the result would have more than 2^31 - 1 vertices.
 TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
-/// The mesh `mesh_B`, whose coordinates are in frame B, in coordinates of frame A.
+/// The mesh `mesh_B`, transformed from coordinates of frame B to coordinates of frame A.
 TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_AB);
 
-/// The mesh after the orientation of each triangle has been reversed with probability one half. Equal seeds give equal
-/// meshes. With this function, tests check that nothing in this library depends on the orientation of triangles.
+/// A copy of the mesh in which the orientation of each triangle is reversed with probability one half. Equal seeds give
+/// equal meshes. Tests use this function to check that nothing in this library depends on the orientation of triangles.
 TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
 /// Merges vertices at identical positions; 0 and -0 count as identical. Keeps all triangles, including degenerate
@@ -60,8 +60,8 @@ std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen
 
 /// Makes the given triangles (indices in ascending order) degenerate. Degenerate triangles take part in no query. All
 /// other triangles keep their indices. Use this function if a part in its final position overlaps an obstacle by
-/// design. For example, a car radio presses on the spring tongues of its slot. Remove the triangles of the obstacle's
-/// mesh that bend out of the way in reality.
+/// design. Then remove those triangles of the obstacle that bend out of the way in reality, such as the spring tongues
+/// in the slot of a car radio.
 TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

@@ -40,9 +40,9 @@ TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints
 
 inline constexpr std::size_t kPairsToMeasure = 8;
 
-/// One vector for each pair, as [axis][pair], metres.
+/// One vector (metres) for each pair, indexed by [axis][pair].
 using VectorsOfPairs = std::array<std::array<double, kPairsToMeasure>, 3>;
-/// One triangle for each pair, as [corner][axis][pair], metres.
+/// One triangle (metres) for each pair, indexed by [corner][axis][pair].
 using TrianglesOfPairs = std::array<VectorsOfPairs, 3>;
 
 inline void put_triangle(const TrianglePoints& triangle, std::size_t pair, TrianglesOfPairs& triangles) {
@@ -69,8 +69,9 @@ struct alignas(64) ClosestPoints {
   VectorsOfPairs p_b;
 };
 
-/// For each pair that does not intersect, finds the square of the distance, and the same points as `triangle_distance`,
-/// bit for bit. For other pairs, `is_apart` is 0, and the points are meaningless. Uses vector code. Thread-safe.
+/// For each pair that does not intersect, finds the squared distance and the closest points, bit-identical to
+/// `triangle_distance`. For other pairs, `is_apart` is 0, and the points are meaningless. Uses vector code.
+/// Thread-safe.
 void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& closest);
 
 /// The kind of feature on which a point of a triangle lies.
@@ -79,7 +80,7 @@ enum class Region : std::uint8_t { kFace, kEdge, kVertex };
 struct ClosestOnTriangle {
   Eigen::Vector3d point;
   Region region;
-  int index;  ///< number of the vertex, or of the edge from corner `index` to the next corner
+  int index;  ///< number of the vertex, or of the edge's first corner; 0 for a face
 };
 
 /// The point of a triangle closest to x, found by the triangle's Voronoi regions.
@@ -106,8 +107,8 @@ inline ClosestOnTriangle closest_on_triangle(const Eigen::Vector3d& x, const Tri
   return {t[static_cast<std::size_t>(nearest)], Region::kVertex, nearest};
 }
 
-/// Closest points `p` and `q` of the lines through two segments. The position along a segment is 0 at the first end and
-/// 1 at the second end.
+/// Closest points `p` and `q` of the lines through two segments. `along_p` and `along_q` are positions along the
+/// segments: 0 at the first end and 1 at the second end.
 struct SegmentPoints {
   Eigen::Vector3d p;
   Eigen::Vector3d q;
