@@ -22,17 +22,19 @@ struct CsvTable {
   std::string where(std::size_t row) const;
 };
 
-/// Reads a file whose header row is exactly `columns`, or has angles in place of a quaternion (`with_angles`): rows
-/// have the quaternion. Blank lines at the end are skipped.
+/// Reads a file whose header row is `columns` or `with_angles(columns)`. Angles are converted to a quaternion. Blank
+/// lines at the end are skipped.
 ///
-/// Throws std::invalid_argument, naming file, line, column and value, for a file that is missing, a folder or not
-/// readable, for another header, no rows or a wrong number of columns, and for a value that is not a finite number.
+/// Throws std::invalid_argument, naming file, line, column and value, in these cases: the file is missing, is a folder
+/// or is not readable; the header is different; there are no rows; a row has a wrong number of columns; or a value is
+/// not a finite number.
 CsvTable read_csv(const std::string& path, const std::vector<std::string>& columns);
 
-/// The same for a text in memory; `source` replaces the file's name in messages.
+/// Like `read_csv`, for a text in memory. `source` replaces the file's name in messages.
 CsvTable parse_csv(std::string_view text, const std::string& source, const std::vector<std::string>& columns);
 
-/// Reads a CSV file row by row, so that memory does not grow with it. The rules and errors are those of `read_csv`.
+/// Reads a CSV file row by row, so that the memory does not grow with the file. The rules and errors are those of
+/// `read_csv`.
 class CsvReader {
  public:
   /// Opens the file and reads its header row.
@@ -40,9 +42,9 @@ class CsvReader {
 
   /// Reads the next row; false at the end of the file.
   bool next();
-  /// The row read last, a value for each column.
+  /// The last row read; it has one value for each column.
   const std::vector<double>& row() const { return row_; }
-  /// Its place as "file:line".
+  /// The place of the last row read, as "file:line".
   std::string where() const;
 
  private:
@@ -56,28 +58,29 @@ class CsvReader {
   std::vector<double> row_;
 };
 
-/// Writes a CSV file row by row; numbers read back as exactly the values written. Not thread-safe.
+/// Writes a CSV file row by row. Numbers read back exactly. Not thread-safe.
 class CsvWriter {
  public:
-  /// Opens `path`, or standard output when it is "-", and writes the header row.
-  /// Throws std::invalid_argument when the file cannot be created.
+  /// Opens the file `path`, or standard output if `path` is "-", and writes the header row. Throws
+  /// std::invalid_argument if the file cannot be created.
   CsvWriter(const std::string& path, const std::vector<std::string>& columns);
 
   /// Appends one value to the current row.
   CsvWriter& add(double value);
   CsvWriter& add(std::int64_t value);
-  /// Its three coordinates.
+  /// Appends the three coordinates.
   CsvWriter& add(const Eigen::Vector3d& v);
-  /// Position and orientation, seven values: x, y, z and a quaternion qw, qx, qy, qz with qw >= 0.
+  /// Appends position and orientation as seven values: x, y, z and a quaternion qw, qx, qy, qz with qw >= 0.
   CsvWriter& add(const Eigen::Isometry3d& X);
-  /// `text` must hold no comma, quote or line break.
+  /// `text` must not contain a comma, a quote or a line break.
   CsvWriter& add(std::string_view text);
 
   /// Ends the row; it must have one value per column.
   void end_row();
 
-  /// Flushes. Throws std::runtime_error when not everything could be written, for example on a full disk. Call it at
-  /// the end: the destructor reports no failure. More rows may follow it, where a reader should not wait for the end.
+  /// Flushes the output. Throws std::runtime_error if not everything could be written, for example on a full disk. Call
+  /// this function after the last row, because the destructor cannot report a failure. Further rows may follow. So call
+  /// it earlier if a reader should not wait for the end.
   void close();
 
  private:

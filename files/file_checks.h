@@ -1,7 +1,7 @@
 #pragma once
 
-/// What a run reads and what it writes, checked in one way for all commands before a file is opened. The functions
-/// throw std::invalid_argument, naming the file. docs/command_line.md has the rules. Thread-safe.
+/// Checks of input and output files before they are opened, the same for all commands. The functions throw
+/// std::invalid_argument, naming the file. docs/command_line.md has the rules. Thread-safe.
 
 #include <fstream>
 #include <string>
@@ -10,22 +10,22 @@
 
 namespace glissade::files {
 
-/// Before a file is read: it must be a regular file. Notes it, so that no output takes its place.
+/// Call this function before a file is read. The file must be a regular file. Later checks reject it as an output.
 void check_input(const std::string& path);
 
-/// Before a file is written: its folder must be there, and it must be no folder and no input, whatever links lead to
-/// it. A device or a pipe may be written.
+/// Call this function before a file is written. The folder of the file must exist. The file must not be a folder or an
+/// input, not even through links. It may be a device or a pipe.
 void check_output(const std::string& path);
 
-/// The file after `check_output`, open for writing. If the file is a pipe without a reader, waits for the reader.
+/// Opens a file for writing after `check_output`. If the file is a pipe without a reader, waits for a reader.
 std::ofstream open_output(const std::string& path);
 
-/// Before a run whose recording is to be written. As `check_output`; the file must be no pipe, because a run cannot
-/// wait for a reader, and must be writable. An older file may be there only if `overwrites`.
+/// Call this function before a run that is recorded. Like `check_output`; in addition, the file must be writable, and
+/// must not be a pipe, because a run cannot wait for a reader. The file may exist already only if `overwrites` is true.
 void check_recording(const std::string& path, bool overwrites);
 
-/// Options and the files that they name, which must all be different. Empty names are left out, and "-" is the standard
-/// output.
+/// Checks that all files are different. Each pair has an option and the file that it names. Empty names are left out,
+/// and "-" is standard output.
 void check_distinct(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 }  // namespace glissade::files

@@ -9,8 +9,8 @@
 
 namespace glissade::files {
 
-/// Appends vertices and triangles. `first` is the number of the first vertex in the file, where OBJ counts from 1.
-/// Numbers read back as exactly those of the mesh, zeros with their sign.
+/// Appends vertices and triangles. `first` is the number of the mesh's first vertex in the file (OBJ counts from 1).
+/// Numbers read back exactly, including the sign of zeros.
 void append_obj(std::string& text, const geometry::TriangleMesh& mesh, std::size_t first = 1);
 
 }  // namespace glissade::files

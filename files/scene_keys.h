@@ -1,8 +1,8 @@
 #pragma once
 
-/// The keys of scene files, by the map in which they stand; docs/scene_files.md describes each. A shape takes
-/// `kShapeTypeKey` and the parameters of that shape in `shapes::shape_catalog`, a timed pose `kTimeKey` and the keys of
-/// a pose.
+/// The keys of scene files, in one array for each kind of map. docs/scene_files.md describes each key. A shape has the
+/// key `kShapeTypeKey` and the parameters of this shape in `shapes::shape_catalog`. A timed pose has `kTimeKey` and the
+/// keys of a pose.
 
 #include <array>
 #include <string_view>

@@ -10,20 +10,20 @@
 
 namespace glissade::files {
 
-/// The whole of `text` as a number with a decimal point, in any locale; nothing if it is not one. "inf",
-/// "nan" and values beyond the range of a double are not numbers here.
+/// The value of `text` if the whole text is a number, with a decimal point in any locale; otherwise std::nullopt.
+/// "inf", "nan" and values beyond the range of a double do not count as numbers.
 std::optional<double> parse_number(std::string_view text);
 
-/// The shortest decimal text that reads back as exactly `value`, zero with its sign.
+/// The shortest decimal text that reads back as exactly `value`, including the sign of zero.
 std::string exact_number(double value);
 
-/// The same for people and tables: zero has no sign.
+/// Like `exact_number`, for people and tables: zero has no sign.
 std::string format_number(double value);
 
-/// `value` with so many digits after the point; what rounds to zero has no sign.
+/// `value` with `decimals` digits after the point. A value that rounds to zero has no sign.
 std::string fixed_text(double value, int decimals);
 
-/// `value` with three digits, as many as a person reads in a message, or all before the point: 12.3, 0.00123, 1523.
+/// `value` for messages, with three significant digits, but with all digits before the point: 12.3, 0.00123, 1523.
 std::string rounded_text(double value);
 
 /// `text` in single quotes, fit for a one-line message: control characters are replaced and long texts cut short.
@@ -32,7 +32,7 @@ std::string in_quotes(std::string_view text);
 /// `text` on one line: runs of line breaks and other control characters become one space.
 std::string one_line(std::string_view text);
 
-/// The texts with a separator between each and the next.
+/// The texts, with a separator between each text and the next.
 template <typename Texts>
 std::string joined(const Texts& texts, std::string_view separator = ", ") {
   std::string result;

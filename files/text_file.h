@@ -1,6 +1,6 @@
 #pragma once
 
-/// Text files as a whole, or to be read in pieces.
+/// Reads text files, as a whole or in pieces, and writes them.
 
 #include <cstdint>
 #include <fstream>
@@ -9,11 +9,11 @@
 
 namespace glissade::files {
 
-/// Longer than any trajectory of a day.
+/// The largest text file that is read by default (bytes). A trajectory of a day is smaller.
 inline constexpr std::uintmax_t kLargestTextFile = std::uintmax_t{1} << 34U;
 
-/// The file, open for reading. Throws std::invalid_argument, naming the file, when it is missing, not a regular file,
-/// longer than `max_bytes` or cannot be opened.
+/// Opens the file for reading. Throws std::invalid_argument, naming the file, if the file is missing, is not a regular
+/// file, is longer than `max_bytes`, or cannot be opened.
 std::ifstream open_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
 struct TextFile {
@@ -21,12 +21,12 @@ struct TextFile {
   std::string text;
 };
 
-/// The file's bytes. Throws as `open_text_file`, and when it cannot be read.
+/// The file's bytes. Throws what `open_text_file` throws, and std::invalid_argument if the file cannot be read.
 std::string read_text_file(const std::string& path, std::uintmax_t max_bytes = kLargestTextFile);
 
-/// Writes files. One that is there already is kept if it has the same content; if one has another, nothing is written.
-/// Throws std::invalid_argument for such a file, for one that cannot be read, and as `open_output`; std::runtime_error
-/// when not everything could be written.
+/// Writes files. An existing file with the same content is kept. If an existing file has other content, nothing is
+/// written. Throws std::invalid_argument for such a file and for an existing file that cannot be read. Also throws what
+/// `open_output` throws, and std::runtime_error if not everything could be written.
 void write_new_files(const std::vector<TextFile>& files);
 
 }  // namespace glissade::files

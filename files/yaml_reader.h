@@ -1,6 +1,6 @@
 #pragma once
 
-/// Strict typed access to YAML: every deviation is an error of one line with file, line and key.
+/// Strict typed access to YAML. The message of every error is one line with file, line and key.
 
 #include <span>
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace glissade::files {
 
-/// Reads the nodes of one file. Every function except `where` throws std::invalid_argument, beginning with
+/// Reads the nodes of one file. Every function except `where` throws std::invalid_argument, whose message begins with
 /// `where(node)`.
 class YamlReader {
  public:
@@ -27,17 +27,17 @@ class YamlReader {
   /// Throws for `node` with the sentence `message`.
   [[noreturn]] void fail(const YAML::Node& node, const std::string& message) const;
 
-  /// Checks that `map` (called `what` in messages) is a map whose keys are texts and differ.
+  /// Checks that `map` (called `what` in messages) is a map. Its keys must be texts and all different.
   void check_map(const YAML::Node& map, const std::string& what) const;
 
-  /// The same; in addition, every key must be one of `known`.
+  /// Like `check_map`; in addition, every key must be one of `known`.
   void check_keys(const YAML::Node& map, const std::string& what, std::span<const std::string_view> known) const;
 
   /// The value of `key`, which must exist.
   YAML::Node required(const YAML::Node& map, const std::string& what, const std::string& key) const;
 
-  /// `node` as a non-empty text, a finite number, true or false, or a list of `count` finite numbers. Messages name it
-  /// `key`.
+  /// The value of `node`: a non-empty text, a finite number, true or false, or a list of `count` finite numbers.
+  /// Messages call it `key`.
   std::string text(const YAML::Node& node, const std::string& key) const;
   double number(const YAML::Node& node, const std::string& key) const;
   bool boolean(const YAML::Node& node, const std::string& key) const;

@@ -1,8 +1,8 @@
 #pragma once
 
 /// The clasp of a chain round objects (paper §4). A clasp finds the collision-free posture nearest to the posture that
-/// a glove asks for. The path from each posture to the next is also collision-free. The visible hand has only such
-/// postures.
+/// a glove asks for. The path from each posture to the next is also collision-free. The visible hand takes only the
+/// postures of a clasp.
 
 #include <cstddef>
 #include <cstdint>
@@ -20,10 +20,10 @@ namespace glissade::grasping {
 
 enum class ClaspState : std::uint8_t {
   kClasping,  ///< the posture is collision-free, and follows the target as far as objects allow
-  /// The chain has not been free since the start, since a motion of the cart, or since an object was placed inside it.
-  /// The posture stays the same, and there are no forces. The clasp begins once the target is free.
+  /// The chain has not been free since the start, since a motion of the cart, or since an object was placed where the
+  /// chain is. The posture stays the same, and there are no forces. The clasp begins once the target is free.
   kWaiting,
-  kLost,  ///< like `kWaiting`, but after `lose_track` until the next target
+  kLost,  ///< the track is lost (`lose_track`); like `kWaiting`, until the next target
 };
 
 std::string_view name_of(ClaspState state);
@@ -32,22 +32,23 @@ struct ClaspRules {
   /// The gap (metres) at which contacts stop a link.
   double margin = 20e-6;
   /// A link touches an object if their distance is less than `touching` (metres, at most 0.2 mm) and the link's target
-  /// lies deeper. An obstacle with a greater margin of its own increases this distance by the difference.
+  /// lies deeper. For an obstacle with a greater margin of its own, `touching` is increased by the difference of the
+  /// margins.
   double touching = 0.1e-3;
-  /// The greatest number of steps in a call. Each step has a proof that it is free. More steps follow a fast hand more
-  /// closely.
+  /// The greatest number of steps in a call. Each step is proven free. With more steps, the chain follows a fast hand
+  /// more closely.
   int most_steps = 8;
   /// Work after which a call takes no further step, in the unit of `contact::SlidingRules::work_budget`. The next call
-  /// continues after the last step. A step is never divided. If there was no step, one flex value may still try to move
-  /// alone. Positive; none: no limit.
+  /// continues after the last step. A step that has begun is always completed. If a call takes no step, one flex value
+  /// may still try to move alone. Positive; none: no limit.
   std::optional<std::int64_t> work_budget{};
 };
 
 /// A link near an object.
 struct LinkContact {
   std::size_t link = 0;
-  contact::Contact contact;  ///< `Contact::obstacle`: fixed bodies first, then objects
-  double depth = 0.0;        ///< metres, to first order; distance of the link's target beyond the contact
+  contact::Contact contact;  ///< `Contact::obstacle` counts the fixed bodies first, then the objects
+  double depth = 0.0;        ///< distance of the link's target beyond the contact; metres, to first order
 };
 
 /// Only surfaces stop a link, not the volume within them, because meshes may be open. So a chain wholly within a closed
@@ -74,23 +75,23 @@ class Clasp {
   /// Places an object. If the chain is then not free, the clasp waits.
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
 
-  /// Places an object. The caller knows that the object has touched nothing on its path.
+  /// Places an object without a check. The caller must know that the object has touched nothing on its path.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
-  /// Places the chain, which moves with an object that it holds. The caller knows that the chain has touched nothing on
-  /// its path. A placed root has no deeper target. So in the next call of `advance`, every link near an object touches
-  /// this object unless the link's target leads away from it.
+  /// Places the chain, which moves with an object that it holds, without a check. The caller must know that the chain
+  /// has touched nothing on its path. A placed root is at its target, which is not deeper. So in the next call of
+  /// `advance`, a link near an object touches this object unless the link's target leads away from the object.
   void carry(const Posture& posture);
 
-  /// Moves the chain towards the target. Flex values beyond their limits count as the limits. If the target is not
-  /// finite, posture and contacts stay the same.
+  /// Moves the chain towards the target. Flex values beyond a limit are set to the limit. If the target is not finite,
+  /// posture and contacts stay the same.
   void advance(const Posture& target);
 
-  /// Call this function when the tracker has lost the hand. Nothing touches any more. The clasp begins anew at the next
-  /// free target, wherever this target is. If the target is inside an object, the clasp begins at the old posture,
+  /// Call this function when the tracker has lost the hand. From then on, nothing touches. The clasp begins anew at the
+  /// next free target, wherever this target is. If the target is inside an object, the clasp begins at the old posture,
   /// provided that this posture is still free.
   void lose_track();
 
-  /// Until the next call of `advance`, nothing touches, because the target is not known.
+  /// Call this function when the target is not known. Nothing touches until the next call of `advance`.
   void forget_contacts();
 
   /// Moves the chain with the user's cart, even through obstacles. The clasp waits until a target is free. Ignores a

@@ -40,7 +40,7 @@ std::string_view words_of(GraspLack lack);
 struct Grasp {
   GraspType type = GraspType::kNone;
   GraspForm form = GraspForm::kNone;
-  std::int32_t object = -1;   ///< number of the touched body, as `Contact::obstacle`; -1: none
+  std::int32_t object = -1;   ///< number of the touched body, as in `Contact::obstacle`; −1: none
   TouchingSegments segments;  ///< the segments that touch this body
 
   /// Whether the object moves with the hand.
@@ -51,7 +51,7 @@ struct Grasp {
   GraspLack lack() const;
 };
 
-/// The grasp of a hand with fingers, from the data of the haptic loop. The object is not set.
+/// The grasp of a hand with fingers, from the data of the haptic loop. `Grasp::object` is not set.
 Grasp grasp_of(const hands::VisibleHand& hand);
 
 /// A sentence without a full stop, such as "power: the palm and the middle segment of the index touch".
@@ -59,10 +59,10 @@ std::string reason_of(const Grasp& grasp);
 
 /// Follows the grasp over time. A delay keeps sensor noise from making a grasp flicker: a segment counts as touching
 /// once it has touched in most of the last 40 ms, and no longer counts once it has hardly touched for 70 ms. No grasp
-/// lasts longer than 70 ms without contacts in `update`. For a hand that holds a part, `GraspSimulation` passes on
-/// contacts that noise may have removed. A segment may touch up to three bodies. The body with the firmest grasp
-/// counts, in the order power, precision, push. A grasp that holds a part, scripted or not, takes precedence over any
-/// grasp of a fixed body. Real-time safe after construction. Not thread-safe.
+/// lasts longer than 70 ms without contacts in `update`. For a hand that holds a part, `GraspSimulation` also passes
+/// contacts to `update` that noise may have removed. A segment may touch up to three bodies. The body with the firmest
+/// grasp counts, in the order power, precision, push. A grasp that holds a part, scripted or not, takes precedence over
+/// any grasp of a fixed body. Real-time safe after construction. Not thread-safe.
 class GraspAnalysis {
  public:
   /// The first `fixed_bodies` bodies never move.
@@ -70,13 +70,13 @@ class GraspAnalysis {
       : meaning_(hand.meaning), first_part_(static_cast<std::int32_t>(fixed_bodies)) {}
 
   /// The grasp after `milliseconds` with these contacts. `up_W` is a unit vector against gravity. If `held` is not −1,
-  /// the hand holds the body with the number `held`, and no other body counts.
+  /// the hand holds the body with the number `held`. Other bodies then count only if the contacts with this body no
+  /// longer hold it.
   const Grasp& update(std::span<const LinkContact> contacts, double milliseconds,
                       const Eigen::Vector3d& up_W = Eigen::Vector3d::UnitZ(), std::int32_t held = -1);
   const Grasp& grasp() const { return grasp_; }
 
-  /// Ends the touch of the link (by its number in the chain) with the body at once, when the link has clearly left the
-  /// body.
+  /// Call this function when a link (by its number in the chain) has clearly left a body. Their contact ends at once.
   void forget(std::size_t link, std::int32_t object);
 
   /// Forgets all contacts, for example after a loss of tracking.
@@ -98,7 +98,7 @@ class GraspAnalysis {
   using TouchesOfLink = std::array<Touch, kBodiesOfLink>;
 
   void follow(std::span<const LinkContact> contacts, double milliseconds);
-  /// The link's contact with this body; null: none that counts.
+  /// The link's contact with this body; null if there is none, or if it does not count.
   const Touch* touch(std::size_t link, std::int32_t object) const;
   bool is_firmer(const Grasp& grasp, const Grasp& other) const;
   Grasp analyze(std::int32_t object, const Eigen::Vector3d& up_W) const;
@@ -106,8 +106,8 @@ class GraspAnalysis {
   GraspForm precision_form(const Grasp& grasp) const;
   bool carries(const Grasp& grasp, const Eigen::Vector3d& up_W) const;
   bool are_opposed(const Grasp& grasp) const;
-  /// Whether the present grasp has this form and this body. A present grasp ends at a wider limit than a new grasp
-  /// begins.
+  /// Whether the present grasp has this form and this body. The limits for keeping a grasp are wider than for a new
+  /// grasp.
   bool had(GraspForm form, std::int32_t object) const { return grasp_.form == form && grasp_.object == object; }
   std::optional<Eigen::Vector3d> normal(std::int32_t object, const SegmentMeaning& segment) const;
 

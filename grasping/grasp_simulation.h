@@ -34,15 +34,15 @@ struct GraspRules {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
-/// The target of a hand with fingers. If the caller decides on holds, also the part attached to the palm. Once the
-/// caller has called `GraspSimulation::take_part`, the part follows its own ghost.
+/// The target of a hand with fingers. If the caller sets the holds, also the part attached to the palm. Once the caller
+/// has called `GraspSimulation::take_part`, this part follows its own ghost.
 struct HandTarget {
-  std::optional<Posture> posture{};   ///< tracked; none while the tracking is lost
+  std::optional<Posture> posture{};   ///< the tracked posture; none while the tracking is lost
   std::optional<std::size_t> part{};  ///< number of the part in the hand
 };
 
-/// The part that the simulation wants a hand to hold. If the caller decides on holds, as a haptic thread does, the
-/// caller must follow this decision.
+/// The decision of the simulation which part a hand should hold. If the caller sets the holds, as a haptic thread does,
+/// the caller must follow this decision.
 struct HoldDecision {
   std::optional<std::size_t> part{};
   std::int64_t number = 0;  ///< increases whenever the simulation decides on another part
@@ -52,19 +52,19 @@ struct HoldDecision {
 ///
 /// A hand takes hold of a part when `GraspAnalysis` finds a grasp. From then on the palm and the part are one rigid
 /// body, which follows the tracked palm by sliding contact. The hand stays clasped round the visible part, wherever the
-/// tracked hand goes. Obstacles stop the segments of the hand, and so the part, as they stop the faces of the part. The
-/// fingers still follow the glove. When the fingers open, the hand lets go. It takes hold of the same part again after
-/// 0.2 s at the earliest. A part in two hands follows the mean of the targets of these hands. A hand that touches a
-/// loose part without a grasp pushes the part. The part then moves, as far as obstacles allow, by the shortest
-/// displacement after which the hand's target is at most 1 mm deep in the part. Its speed is at most 1.5 times that of
-/// the fastest pushing segment (plus the gap of contacts, up to 20 µm a call).
+/// tracked hand goes. An obstacle that stops a segment of the hand also stops the part, like an obstacle at a face of
+/// the part. The fingers still follow the glove. When the fingers open, the hand lets go. It takes hold of the same
+/// part again after 0.2 s at the earliest. A part in two hands follows the mean of the targets of these hands. A hand
+/// that touches a loose part without a grasp pushes the part. The part then moves, as far as obstacles allow, by the
+/// shortest displacement after which the hand's target is at most 1 mm deep in the part. The speed of the part is at
+/// most 1.5 times the speed of the fastest pushing segment (plus the gap of contacts, up to 20 µm a call).
 ///
-/// Without hands, the caller leads the parts, and holds them from the start. The results are then bit-identical to
+/// Without hands, the caller leads the parts, which are held from the start. The results are then bit-identical to
 /// those of `contact::MultiPartSliding`.
 ///
-/// With the second `advance`, the caller decides on holds and supplies the ghosts of held parts, as the haptic thread
-/// of a server does. A `decision` takes effect once the caller has followed it. The part's target is then relative to
-/// the tracked palm, not to the visible palm, so nothing moves when a hand takes hold.
+/// With the second `advance`, the caller sets the holds and supplies the ghosts of held parts, as the haptic thread of
+/// a server does. A `decision` takes effect once the caller has set the hold. The part's target is then relative to the
+/// tracked palm, not to the visible palm, so nothing moves when a hand takes hold.
 class GraspSimulation {
  public:
   /// With hands, parts are loose at the start, unless scripts lead them. Scripted parts cannot be held. Throws
@@ -76,17 +76,17 @@ class GraspSimulation {
   GraspSimulation& operator=(GraspSimulation&&) noexcept;
   ~GraspSimulation();
 
-  /// Advances the simulation. `targets` has one entry for each hand, which is the tracked posture, or none while the
-  /// tracking is lost. `milliseconds` is the time since the last call.
+  /// Advances the simulation. `targets` has the tracked posture of each hand, or none while the tracking of the hand is
+  /// lost. `milliseconds` is the time since the last call.
   void advance(std::span<const std::optional<Posture>> targets, double milliseconds = 1.0);
 
-  /// Advances the simulation if the caller decides on holds. Each part has a ghost pose X_WG, which is used from
-  /// `take_part` to `leave_part`. Each hand has a target. Hands push parts that are not held. Do not call both
-  /// `advance` functions of one simulation.
+  /// Advances the simulation if the caller sets the holds. X_WG has a ghost pose for each part, which is used from
+  /// `take_part` to `leave_part`. `targets` has a target for each hand. Hands push parts that are not held. Call only
+  /// one of the two `advance` functions of a simulation.
   void advance(std::span<const Eigen::Isometry3d> X_WG, std::span<const HandTarget> targets, double milliseconds);
   /// `take_part` begins a hold of the part, or begins a hold anew, with the ghost at X_WG. `leave_part` ends the hold.
-  /// Both work like `contact::MultiPartSliding::grasp` and `contact::MultiPartSliding::release`. Unless the compliance
-  /// point was chosen, it is where the holding hands touch the part.
+  /// Both work like `contact::MultiPartSliding::grasp` and `contact::MultiPartSliding::release`. Unless the part has a
+  /// chosen compliance point, this point is the mean of the contact points of the holding hands.
   void take_part(std::size_t part, const Eigen::Isometry3d& X_WG);
   void leave_part(std::size_t part);
   /// Whether the part is held. Without hands, parts are held from the start.
@@ -103,8 +103,8 @@ class GraspSimulation {
   // Of the hand with this number:
   const std::shared_ptr<const HandModel>& model(std::size_t hand) const;
   hands::HandActivity activity(std::size_t hand) const;
-  /// The visible hand. While the hand is free or holds a part, its posture and its path are collision-free. A hand
-  /// keeps its posture and is no obstacle in two cases: it waits; or its tracking is lost and it holds nothing.
+  /// The visible hand. While the hand is free or holds a part, its posture and its path are collision-free. While the
+  /// hand waits, or is lost and holds nothing, it keeps its posture and is no obstacle.
   const Posture& posture(std::size_t hand) const;
   const Clasp& clasp(std::size_t hand) const;
   /// The contacts of the clasp, and contacts of segments that noise has moved away from the held part by millimetres.

@@ -54,7 +54,7 @@ inline constexpr std::array<std::string_view, kOpenXrJoints> kOpenXrJointNames{"
 /// and y points out of the back of the hand (for the thumb, out of the nail).
 struct OpenXrJoint {
   Eigen::Isometry3d X_WOpenXr = Eigen::Isometry3d::Identity();
-  double radius = 0.0;  ///< from the joint to the skin, m
+  double radius = 0.0;  ///< distance from the joint to the skin, m
 };
 
 using OpenXrJoints = std::array<OpenXrJoint, kOpenXrJoints>;
@@ -86,8 +86,8 @@ inline constexpr std::array<std::string_view, kAdroitJoints> kAdroitJointNames{
 ///
 /// The Adroit hand and this hand differ in structure. Three kinds of angles stay the same: those of the wrist; those of
 /// MCP, PIP and DIP joints; and those between fingers. `palm_arch` lowers the knuckle of the little finger as far as
-/// LFJ4 does. The thumb's metacarpal has the recorded direction. The thumb's MCP and IP joints get −THJ1 and −THJ0.
-/// THJ2, a sideways motion of the thumb's MCP joint, has no counterpart. Values may lie beyond the limits.
+/// LFJ4 does. The thumb's metacarpal has the recorded direction. The thumb's MCP and IP joints have the angles −THJ1
+/// and −THJ0. THJ2, a sideways motion of the thumb's MCP joint, has no counterpart. Values may lie beyond the limits.
 ///
 /// Throws std::invalid_argument for a left hand.
 HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,

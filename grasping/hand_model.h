@@ -15,8 +15,8 @@
 namespace glissade::grasping {
 
 /// The size and side of a hand. The length is measured from the crease of the wrist to the tip of the middle finger,
-/// the breadth across the knuckles. The defaults are those of a typical man's hand. A typical woman's hand has 0.166 m
-/// and 0.075 m.
+/// the breadth across the knuckles. The defaults are those of a typical man's hand. A typical woman's hand is 0.166 m
+/// long and 0.075 m broad.
 struct HandShape {
   double length_m = 0.183;
   double breadth_m = 0.084;
@@ -51,7 +51,7 @@ class TouchingSegments {
   /// The bits of `hands::VisibleHand::touching`.
   std::int32_t bits() const { return static_cast<std::int32_t>(bits_); }
   static TouchingSegments from_bits(std::int32_t bits);
-  /// The segment of each bit, the lowest first; `HandSegment::kNone` where no segment has the bit.
+  /// The segment of each bit, from the lowest bit on; `HandSegment::kNone` for a bit without a segment.
   static std::array<SegmentMeaning, 24> meaning_of_bits();
   bool operator==(const TouchingSegments&) const = default;
 

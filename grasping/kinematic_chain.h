@@ -1,7 +1,7 @@
 #pragma once
 
 /// A tree of rigid segments joined by hinges, such as a hand, a gripper or an arm. The chain computes the poses of the
-/// segments for given joint angles. It also finds which segments an angle moves, and how far at most.
+/// segments for given joint angles. It also finds the segments that an angle moves, and bounds of their motion.
 
 #include <cstddef>
 #include <memory>
@@ -35,12 +35,12 @@ struct JointTerm {
 /// links at the same place. The first of these links has no mesh.
 struct ChainLink {
   std::string name;
-  std::optional<std::size_t> parent;  ///< a link with a lower number; none for the root, link 0, whose frame is R
+  std::optional<std::size_t> parent;  ///< number, lower than that of the link; none for the root (link 0, frame R)
   Eigen::Isometry3d X_PJ = Eigen::Isometry3d::Identity();
   Eigen::Vector3d axis_J = Eigen::Vector3d::UnitX();   ///< of unit length
   double offset = 0.0;                                 ///< rad
-  std::vector<JointTerm> terms;                        ///< angle = offset + sum of the terms; none: a fixed joint
-  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null: the link has no surface
+  std::vector<JointTerm> terms;                        ///< angle = offset + sum of the terms; empty: a fixed joint
+  std::shared_ptr<const geometry::TriangleMesh> mesh;  ///< in L, in metres; null for a link without a surface
 };
 
 /// The posture of a chain, i.e. the pose of its root and its flex values; (M, F) in the paper.
@@ -98,7 +98,7 @@ class KinematicChain {
 
   std::vector<FlexValue> values_;
   std::vector<ChainLink> links_;
-  std::vector<Eigen::Isometry3d> X_PJ_;  ///< of links with a fixed joint: X_PL
+  std::vector<Eigen::Isometry3d> X_PJ_;  ///< by link; for a fixed joint, X_PL
   std::vector<char> moves_;              ///< by link and value
   std::vector<char> hangs_on_;           ///< by link and other link
   std::vector<double> reach_;            ///< by link and joint

@@ -10,8 +10,8 @@
 
 namespace glissade::grasping {
 
-/// A chain, and warnings about skipped or missing content of its mesh files. Each warning is a sentence of
-/// `ImportedMesh::warnings` after the name of the file, and occurs once.
+/// A chain, and warnings about skipped or missing content of its mesh files. Each warning is the name of the file,
+/// followed by a sentence of `ImportedMesh::warnings`. No warning occurs twice.
 struct UrdfChain {
   KinematicChain chain;
   std::vector<std::string> warnings;
@@ -25,9 +25,9 @@ struct UrdfChain {
 /// - `<mimic>`: the joint turns with the value of the joint that it mimics, directly or through other mimics. Limits of
 ///   a joint with `<mimic>` are not used.
 /// - Meshes: the collision geometry of a link, as one mesh. Boxes, cylinders and spheres become triangles. Mesh files
-///   are read by `geometry::import_mesh`, with `scale`. Their paths are absolute, relative to the folder of the URDF
-///   file, `file://`, or `package://NAME/PATH`. The folder of a package is the nearest folder NAME that contains the
-///   URDF file, or whose parent folder contains this file.
+///   are read by `geometry::import_mesh`, with `scale`. The path of a mesh file is absolute, relative to the folder of
+///   the URDF file, `file://`, or `package://NAME/PATH`. The folder of a package is the nearest folder NAME that
+///   contains the URDF file, or whose parent folder contains this file.
 ///
 /// Visual geometry, masses, dynamics and transmissions are ignored.
 ///

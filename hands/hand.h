@@ -68,7 +68,7 @@ enum class HandSide : std::int32_t { kUnknown = 0, kLeft = 1, kRight = 2 };
 
 /// The activity of a hand with fingers. Messages carry its number.
 enum class HandActivity : std::int32_t {
-  kNone = 0,     ///< not reported, because the hand has no fingers in the simulation, and holds by its grip
+  kNone = 0,     ///< not reported: the hand has no fingers in the simulation, and holds by its grip
   kLost = 1,     ///< the tracker has lost the hand, and the hand holds nothing
   kWaiting = 2,  ///< the hand has been inside an object since the start or since its tracker found it, and waits until
                  ///< it is free
@@ -89,7 +89,7 @@ inline constexpr std::int32_t kHandActivities = 5;
 /// segments, too. Messages carry the number of the type.
 enum class GraspType : std::int32_t {
   kNone = 0,       ///< nothing touches
-  kPush = 1,       ///< a segment or the palm alone; fingers without the thumb; or only palm and inner segments
+  kPush = 1,       ///< one segment; only the thumb; fingers without thumb and palm; or palm and inner segments
   kPrecision = 2,  ///< segments of the thumb and of another finger, without the palm
   kPower = 3,      ///< the palm and at least one middle or outer segment
 };
@@ -101,11 +101,11 @@ inline constexpr std::int32_t kGraspTypes = 4;
 enum class GraspForm : std::int32_t {
   kNone = 0,
   kTipPinch = 1,    ///< precision: outer segments of thumb and index only
-  kThreeJaw = 2,    ///< precision: outer segments of thumb, index and middle finger; both fingers touch the same side
+  kThreeJaw = 2,    ///< precision: outer segments of thumb, index and middle finger, both fingers on one side
   kThreePoint = 3,  ///< precision: outer segments of thumb and two fingers, from three sides
   kKey = 4,         ///< precision: the thumb's outer segment against the side of the index
   kCigarette = 5,   ///< push: two neighboring fingers from opposite sides, without the thumb
-  kGravity = 6,     ///< push or power: at least two contacts, which all carry the object from below
+  kGravity = 6,     ///< push or power: two fingers, or palm and finger, carry the object; nothing else touches it
 };
 
 /// Number of forms; their values run from 0 to kGraspForms − 1.

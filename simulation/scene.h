@@ -47,7 +47,7 @@ class SceneMesh {
   /// Null if no mesh was given.
   const std::shared_ptr<const geometry::TriangleMesh>& shared() const { return mesh_; }
 
-  /// The entry of the mesh in a scene file. `file` and `shape` are empty for a mesh given as a value.
+  /// The source of the mesh, as a scene file names it. `file` and `shape` are empty for a mesh given as a value.
   struct Origin {
     std::filesystem::path file{};  ///< absolute
     double scale = 1.0;            ///< metres per unit of the file
@@ -82,11 +82,11 @@ struct SceneObject {
   SceneMesh mesh;  ///< in the object's frame B
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   bool movable = false;                 ///< hands can hold it
-  std::optional<SceneMotion> motion{};  ///< only if not `movable`; the script then gives the initial pose
+  std::optional<SceneMotion> motion{};  ///< only if not `movable`; its script gives the initial pose
   std::optional<double> margin_m{};     ///< see `contact::Obstacle::margin`; no effect on moving objects
   /// The point at which the coupling spring acts. Default: the centre of the bounding box.
   std::optional<Eigen::Vector3d> compliance_point_B{};
-  std::vector<std::int32_t> giving_way{};  ///< triangles that stop nothing, in ascending order
+  std::vector<std::int32_t> giving_way{};  ///< numbers of triangles that stop nothing, ascending
 };
 
 /// Objects with different names, hands with fingers, and the rules for holding and contact.
@@ -120,8 +120,8 @@ Scene read_scene(const std::filesystem::path& path);
 /// relative to `base_folder`.
 Scene parse_scene(const std::string& text, const std::string& source, const std::filesystem::path& base_folder);
 
-/// Writes a scene file. `read_scene` reads an equal scene from this file, with every number equal to the bit. The file
-/// has all objects, with poses as matrices, motions row by row, and shapes by their parameters. Mesh files and the
+/// Writes a scene file. `read_scene` reads an equal scene from this file, in which every number is bit-identical. The
+/// file has all objects, with poses as matrices, motions row by row, and shapes by their parameters. Mesh files and the
 /// script are not copied: the scene file has their paths, relative to its folder. A mesh given as a value is written to
 /// STEM_N.obj in the same folder, where N is the number of the object (from 1). Objects that share such a mesh share
 /// the file.
@@ -135,8 +135,8 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
 /// - `bodies_of` refuses an object.
 /// - A name is empty or is not UTF-8.
 /// - A rotation has a `geometry::rotation_defect` above 1e-12.
-/// - No number of seconds gives a time to the nanosecond (beyond some 26 days).
-/// - No axis-aligned boxes hold exactly the triangles that give way.
+/// - A time in nanoseconds is not exactly representable as a number of seconds (beyond some 26 days).
+/// - The triangles that give way are not exactly the triangles inside a set of axis-aligned boxes.
 /// - A value is out of range.
 ///
 /// Throws std::runtime_error if not everything could be written, for example on a full disk. May block on the disk.
@@ -158,7 +158,7 @@ struct SceneBodies {
   std::vector<ScenePart> parts;  ///< at least one
   std::vector<contact::Obstacle> obstacles;
   std::vector<contact::ScriptedPart> moving;  ///< the objects that move on their own
-  std::vector<std::string> body_names;        ///< index: number of the body
+  std::vector<std::string> body_names;        ///< by number of the body
   std::optional<Eigen::Isometry3d> X_WGoal;   ///< goal pose of the first part
 
   /// Number of the part with this name; std::nullopt if no part has it.

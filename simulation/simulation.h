@@ -31,21 +31,21 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept = default;
 
   /// Moves each part towards its ghost for `milliseconds`. X_WG has one pose for each part that can be held. Call this
-  /// once per millisecond of motion. A caller that is late passes the whole time. If a `haptics::HapticServer` has
-  /// released a part, this call grasps the part again. Throws std::invalid_argument for another number of poses, and
-  /// for a scene with hands, because there the hands lead the parts.
+  /// once per millisecond of motion. A late caller passes the full elapsed time as `milliseconds`. If a
+  /// `haptics::HapticServer` has released a part, this call grasps the part again. Throws std::invalid_argument if the
+  /// number of poses is wrong, and for a scene with hands, because there the hands lead the parts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
   /// Like the other `advance`, for a scene with one part. Also throws for a scene with several parts.
   void advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) { advance({&X_WG, 1}, milliseconds); }
   /// Moves each hand of the scene towards its posture for `milliseconds`, and moves the parts with the hands.
   /// std::nullopt means that the tracking of the hand is lost. Do not call this function after a
-  /// `haptics::HapticServer` has led the hands. Throws std::invalid_argument unless there is one posture for each hand.
+  /// `haptics::HapticServer` has led the hands. Throws std::invalid_argument if the number of postures is wrong.
   void advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds = 1.0);
 
   std::size_t part_count() const { return bodies_.parts.size(); }
   const SceneBodies& bodies() const { return bodies_; }
-  /// The name of the body with this number, as in `contact::Contact::obstacle`. Every hand has the name "a hand"; −1
-  /// has the name "nothing".
+  /// The name of the body with the number `body`, as in `contact::Contact::obstacle`. Every hand has the name "a hand";
+  /// −1 has the name "nothing".
   const std::string& name_of_body(std::int32_t body) const;
 
   // Properties of the part with the number `part`:
@@ -58,15 +58,15 @@ class Simulation {
   /// Exactly zero while no contact pushes. At rest, the wrench balances the coupling spring.
   contact::Wrench wrench(std::size_t part) const;
   /// The touching contacts. Contacts keep their numbers from call to call (see `contact::ContactTracker`) if this
-  /// function is called after every `advance`. A hand that moves along the part makes new contacts. The span is valid
-  /// until the next call.
+  /// function is called after every `advance`. If a hand moves along the part, its contacts get new numbers. The span
+  /// is valid until the next call.
   std::span<const contact::TrackedContact> contacts(std::size_t part);
   /// Distance (metres) from the part to the nearest other body of the scene; `farthest` if no body is nearer. Hands do
   /// not count. 0 if the part intersects a body, which is possible only for overlaps at the start. Cost: one query for
   /// each body.
   double clearance(std::size_t part, double farthest = std::numeric_limits<double>::infinity());
 
-  /// The underlying simulation, with hands and statistics. A `haptics::HapticServer` takes it as its argument.
+  /// The underlying simulation, with hands and statistics. It is the argument of `haptics::HapticServer`.
   grasping::GraspSimulation& engine() & { return engine_; }
   const grasping::GraspSimulation& engine() const& { return engine_; }
   operator grasping::GraspSimulation&() & { return engine_; }
