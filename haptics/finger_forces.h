@@ -72,7 +72,7 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
 class FingerForces {
  public:
   /// Joints that the device does not have get no torque. Throws what `devices::validate` and `validate_tick_period`
-  /// throw. Also throws std::invalid_argument if a limit of the hand is not finite, or if a lower limit exceeds the
+  /// throw. Also throws std::invalid_argument if a limit of the hand is NaN, or if a lower limit exceeds the
   /// upper limit.
   FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                std::chrono::nanoseconds period = kTickPeriod);
