@@ -6,6 +6,7 @@
 #include <glissade/haptics/coupling.h>
 
 #include "loop/lever_limit.h"
+#include "loop/loop_settings.h"
 
 namespace glissade::haptics {
 
@@ -39,11 +40,10 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::Co
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever) noexcept {
-  constexpr double kDampingTime_s = 5e-3;
   const double lag = devices::lag_of(device, period, delay);
   // What the device's own damping leaves.
   const auto damping = [lag](double stiffness, double limit) {
-    return std::clamp((limit - stiffness) * lag, 0.0, kDampingTime_s * stiffness);
+    return std::clamp((limit - stiffness) * lag, 0.0, kLoop.damping_time_s * stiffness);
   };
   const LeverLimit limit{
       devices::passive_limit(device, device.damping, device.max_stiffness, lag),

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <stdexcept>
 #include <string>
 
@@ -10,14 +9,11 @@
 #include <glissade/haptics/finger_forces.h>
 
 #include "loop/contact_force.h"
+#include "loop/loop_settings.h"
 
 namespace glissade::haptics {
 
 namespace {
-
-constexpr double kFullTorque_rad = 0.8 * std::numbers::pi / 180.0;
-constexpr double kShortArm_m = 2e-3;
-constexpr double kFastestFinger_rad_per_s = 6.0;
 
 const FingerHand& checked(const FingerHand& hand) {
   for (std::size_t joint = 0; joint < hand.lower.size(); ++joint) {
@@ -45,11 +41,11 @@ FingerHand finger_hand(const grasping::HandModel& hand) {
 
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept {
-  const double wanted = device.max_joint_torque / kFullTorque_rad;
+  const double wanted = device.max_joint_torque / kLoop.full_torque_rad;
   const bool has_steps = device.joint_friction > 0.0 && device.joint_resolution > 0.0;
   const double without_buzz = has_steps ? 2.0 * device.joint_friction / device.joint_resolution : wanted;
   return std::min(
-      {wanted, without_buzz, devices::joint_torque_rate(device) / kFastestFinger_rad_per_s,
+      {wanted, without_buzz, devices::joint_torque_rate(device) / kLoop.fastest_finger_rad_per_s,
        devices::passive_limit(device, device.joint_damping, wanted, devices::lag_of(device, period, link_delay))});
 }
 
@@ -103,7 +99,7 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
     squares += arm(j) * arm(j);
   }
   const auto raise = [&](std::size_t j, double back) {
-    depths[j] = std::max(depths[j], std::min(1.0, arm(j) / kShortArm_m) * back);
+    depths[j] = std::max(depths[j], std::min(1.0, arm(j) / kLoop.short_arm_m) * back);
   };
   while (count > 0) {
     const double multiplier = depth / squares;

@@ -12,15 +12,12 @@
 #include "loop/hand_in_device.h"
 #include "loop/hand_ledger.h"
 #include "loop/holds.h"
+#include "loop/loop_settings.h"
 #include "loop/usable_set.h"
 
 namespace glissade::haptics {
 
 namespace {
-
-constexpr double kPatiencePeriods = 3.0;
-constexpr int kGripStates = 3;
-constexpr double kHeadroom = 1.05;  // contacts may demand a little more than the device gives: the envelope tells that
 
 void check_count(std::size_t count, std::size_t most, const std::string& what) {
   if (count > 0 && count <= most) return;
@@ -81,14 +78,14 @@ HapticKernel::HapticKernel(std::vector<KernelPart> parts, const std::vector<Kern
       couplings[p] = coupling_for(hand.device, parts_[p].stiffness, period);
       of_hand[p] = couplings[p].stiffness;
     }
-    ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kHeadroom * hand.device.max_force);
+    ContactForce contacts(parts_.front().radius, couplings.front().stiffness, kLoop.headroom * hand.device.max_force);
     std::optional<FingersOfHand> fingers;
     if (hand.fingers) fingers.emplace(*hand.fingers, hand.device, period);
     hands_.push_back(std::make_unique<HandInDevice>(
         HandInDevice{.couplings = couplings,
                      .present = couplings.front(),
                      .contacts = contacts,
-                     .envelope = devices::SafetyEnvelope(hand.device, kPatiencePeriods, period),
+                     .envelope = devices::SafetyEnvelope(hand.device, kLoop.patience_periods, period),
                      .fingers = std::move(fingers)}));
   }
   contacts_ = std::make_unique<ContactProjection>(parts_.size());
@@ -218,7 +215,7 @@ void HapticKernel::follow_grip(std::size_t number, const devices::GloveState& st
     hand.told_sequence = state.sequence;
   }
   if (is_first && !is_closed) holds_->release(number);  // it does not take the part that it was given
-  if (hand.told_states < kGripStates || hand.is_fading || hand.grip == state.grip) return;
+  if (hand.told_states < kLoop.grip_states || hand.is_fading || hand.grip == state.grip) return;
   const bool counts_anew = !hand.grip;
   hand.grip = state.grip;
   if (counts_anew && is_closed) {
@@ -296,7 +293,7 @@ void HapticKernel::exert(HandInDevice& hand, Rendering& r) noexcept {
     motion = holds_->ghost_motion(p, r.lever);
     r.tick.pull = scaled(holds_->pull_on(r.number), r.softness);
     const double pull = r.tick.pull.f.norm();
-    const double most = kHeadroom * hand.envelope.descriptor().max_force;
+    const double most = kLoop.headroom * hand.envelope.descriptor().max_force;
     if (pull > most) r.tick.pull = scaled(r.tick.pull, most / pull);
   }
   r.tick.contacts = hand.contacts.update(r.contacts, r.age, motion, r.dt);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "envelope/envelope_numbers.h"
+#include "envelope/envelope_settings.h"
 
 namespace glissade::devices {
 
@@ -11,36 +12,21 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-constexpr double kMostEnergy_m = 0.25;  // times the largest force
-// The wrench goes on for so long a way before it falls: so it comes back from zero without a jump.
-constexpr double kSpare_m = 1e-3;
-constexpr double kSpare_rad = 0.01;
-constexpr double kEnergyPeriods = 10.0;  // longer than a fade at the usual rates
-constexpr double kHeldPower = 3.0;       // times what is looked ahead
-constexpr double kMostRefill_J = 1.0;    // for returns and calm contacts
-constexpr double kRefill_W = 0.25;       // of the 0.3 W that are promised: the rest is for ways that are not measured
-constexpr double kRecovery_W = 0.3;
-constexpr double kCalmRefill_W = 0.5;
-constexpr double kTremblingRefill_W = 0.15;
-constexpr nanoseconds kReturnIsFree = std::chrono::milliseconds(500);
-constexpr double kMostDebt_J = 0.3;
-constexpr nanoseconds kForgivesAgain = std::chrono::seconds(30);
-
-/// The work on the last millimetre, J.
+/// The work on the spare way, J.
 double work_of_last_way(const Forces& forces) noexcept {
-  return kSpare_m * forces.f.norm() + kSpare_rad * forces.t.norm();
+  return kEnvelope.spare_m * forces.f.norm() + kEnvelope.spare_rad * forces.t.norm();
 }
 
 }  // namespace
 
 EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, nanoseconds period, nanoseconds patience)
     : descriptor_(descriptor),
-      longest_known_(std::max<nanoseconds>(patience, kExertedWithoutCommand)),
+      longest_known_(std::max<nanoseconds>(patience, kEnvelope.exerted_without_command)),
       period_s_(in_seconds(period)),
-      given_(descriptor.delay, std::max<nanoseconds>(kExertedWithoutCommand, 2 * period),
+      given_(descriptor.delay, std::max<nanoseconds>(kEnvelope.exerted_without_command, 2 * period),
              std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(1.0 / descriptor.update_rate))),
       strokes_(descriptor.resolution, descriptor.max_force),
-      refill_(kMostRefill_J) {
+      refill_(kEnvelope.most_refill_J) {
   const double lag = lag_of(descriptor, period, nanoseconds(0));
   const auto passive = [&](double damping, double largest) {
     return std::min(largest, passive_limit(descriptor, damping, largest, lag));
@@ -82,10 +68,10 @@ void EnergyLimit::book(double change, bool is_jump, nanoseconds now) noexcept {
   strokes_.book(change);
   if (!is_jump) return;
   energy_ = std::min(energy_, before);
-  const double least = std::min(before, -kMostDebt_J);
+  const double least = std::min(before, -kEnvelope.most_debt_J);
   if (energy_ >= least || now < forgives_from_) return;
   energy_ = least;
-  forgives_from_ = now + kForgivesAgain;
+  forgives_from_ = now + kEnvelope.forgives_again;
 }
 
 /// What a hand stores that presses a spring which the device renders passively, at least.
@@ -93,7 +79,7 @@ double EnergyLimit::most() const noexcept {
   Forces greatest;
   greatest.f.x() = descriptor_.max_force;
   const double pressed = work_of_last_way(greatest) + work_of_fall(greatest);
-  return std::max({kStartEnergy_J, kMostEnergy_m * descriptor_.max_force, pressed});
+  return std::max({kEnvelope.start_energy_J, kEnvelope.most_energy_m * descriptor_.max_force, pressed});
 }
 
 void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept {
@@ -107,21 +93,22 @@ void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double
 /// vanished for a moment: but only while nothing oscillates.
 void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, double dt) noexcept {
   const bool has_contact = has_force_ || forces.has_wrench();
-  enough_ = kStartEnergy_J;
-  if (has_contact) enough_ = std::clamp(work_of_last_way(forces) + work_of_fall(forces), kStartEnergy_J, most());
-  refill_ = std::min(kMostRefill_J, refill_ + kRefill_W * dt);
-  if (returns) free_until_ = now + kReturnIsFree;
+  enough_ = kEnvelope.start_energy_J;
+  if (has_contact)
+    enough_ = std::clamp(work_of_last_way(forces) + work_of_fall(forces), kEnvelope.start_energy_J, most());
+  refill_ = std::min(kEnvelope.most_refill_J, refill_ + kEnvelope.refill_W * dt);
+  if (returns) free_until_ = now + kEnvelope.return_is_free;
   strokes_.forget(dt);
   if (energy_ < enough_) {
     const double in_contact =
-        std::max(strokes_.calm() * kCalmRefill_W, strokes_.puts_in(now) ? kTremblingRefill_W : 0.0);
-    const double recovery = has_contact ? in_contact : kRecovery_W;
+        std::max(strokes_.calm() * kEnvelope.calm_refill_W, strokes_.puts_in(now) ? kEnvelope.trembling_refill_W : 0.0);
+    const double recovery = has_contact ? in_contact : kEnvelope.recovery_W;
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(enough_ - energy_, most);
     refill_ -= refilled;
     energy_ += refilled;
   }
-  if (!has_contact) energy_ = std::min(kStartEnergy_J, energy_);
+  if (!has_contact) energy_ = std::min(kEnvelope.start_energy_J, energy_);
 }
 
 // A glove behind a link has an envelope of its own, which knows the motion without delay.
@@ -136,11 +123,11 @@ void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_
   if (state.link_delay > nanoseconds(0)) return;
   const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
-  const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnergyPeriods * period_s_, time_to_zero);
+  const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnvelope.ahead_periods * period_s_, time_to_zero);
   // A brake that follows each change of the velocity would itself shake a light hand at a slow device. A hand that has
   // left a contact fast may come back before a late device has let go: its power is remembered in free space, too.
-  power_ =
-      std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH), power_ * std::exp(-dt / (kHeldPower * ahead_s)));
+  power_ = std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH),
+                    power_ * std::exp(-dt / (kEnvelope.held_power * ahead_s)));
   const double going_on = work_of_last_way(forces) + ahead_s * power_;
   // What the device has been given and does not exert yet is not counted yet.
   const double under_way = std::max(0.0, given_.work_to_come(now, state.v_WH, state.w_WH));

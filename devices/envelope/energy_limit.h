@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "envelope/envelope_settings.h"
 #include "envelope/forces.h"
 #include "envelope/given_wrenches.h"
 #include "envelope/state_check.h"
@@ -11,8 +12,6 @@
 #include "envelope/supply.h"
 
 namespace glissade::devices {
-
-inline constexpr double kStartEnergy_J = 0.1;
 
 class EnergyLimit {
  public:
@@ -50,8 +49,8 @@ class EnergyLimit {
   GivenWrenches given_;
   Strokes strokes_;
   Supply supply_;
-  double energy_ = kStartEnergy_J;
-  double enough_ = kStartEnergy_J;             // J, with which the wanted wrench is whole
+  double energy_ = kEnvelope.start_energy_J;
+  double enough_ = kEnvelope.start_energy_J;   // J, with which the wanted wrench is whole
   double refill_;                              // J, for all that recovers
   double power_ = 0.0;                         // W, the greatest of late that the wanted wrench would have had
   bool has_force_ = false;                     // by the last command

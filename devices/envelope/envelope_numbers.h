@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the parts of the safety envelope share: which numbers count as finite, and for how long a command acts.
+/// What the parts of the safety envelope share: which numbers count as finite.
 
 #include <algorithm>
 #include <chrono>
@@ -10,9 +10,6 @@
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
-
-/// After which a device without a command exerts nothing (docs/safety.md: what the maker must do).
-inline constexpr std::chrono::milliseconds kExertedWithoutCommand{10};
 
 inline double in_seconds(std::chrono::nanoseconds time) noexcept {
   return std::chrono::duration<double>(time).count();

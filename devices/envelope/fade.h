@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "envelope/envelope_settings.h"
 #include "envelope/forces.h"
 
 namespace glissade::devices {
@@ -10,12 +11,11 @@ namespace glissade::devices {
 /// The force that fades within seven periods, and returns softly within 200 ms.
 class Fade {
  public:
-  Fade(const DeviceDescriptor& descriptor, double period_s) : descriptor_(descriptor), fade_s_(kPeriods * period_s) {}
-
-  static constexpr double kPeriods = 7.0;
+  Fade(const DeviceDescriptor& descriptor, double period_s)
+      : descriptor_(descriptor), fade_s_(kEnvelope.fade_periods * period_s) {}
 
   void advance(bool is_fading, double dt) noexcept {
-    gain_ = std::clamp(gain_ + (is_fading ? -dt / fade_s_ : dt / kReturn_s), 0.0, 1.0);
+    gain_ = std::clamp(gain_ + (is_fading ? -dt / fade_s_ : dt / kEnvelope.return_s), 0.0, 1.0);
   }
 
   bool is_whole() const noexcept { return gain_ == 1.0; }
@@ -45,8 +45,6 @@ class Fade {
   }
 
  private:
-  static constexpr double kReturn_s = 0.2;
-
   const DeviceDescriptor& descriptor_;
   double fade_s_;
   double gain_ = 0.0;

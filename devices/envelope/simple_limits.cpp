@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "envelope/envelope_settings.h"
 #include "envelope/fade.h"
 
 namespace glissade::devices {
 namespace {
-
-constexpr double kLongestFallPeriods = 15.0;
-constexpr double kMeanTime_s = 10.0;
-constexpr double kSoftMean = 0.9;  // share of the largest mean from which the force is reduced
 
 /// Scales `vector` down to the norm `limit` if it exceeds it; returns whether it did.
 bool limit_norm(Eigen::Vector3d& vector, double limit) noexcept {
@@ -35,7 +32,7 @@ bool limit_step(Eigen::Vector3d& value, const Eigen::Vector3d& last, double step
 }
 
 double rate_or_default(double rate, double maximum, const DeviceDescriptor& descriptor) noexcept {
-  return rate > 0.0 ? rate : maximum * descriptor.update_rate / Fade::kPeriods;
+  return rate > 0.0 ? rate : maximum * descriptor.update_rate / kEnvelope.fade_periods;
 }
 
 double seconds_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
@@ -55,13 +52,14 @@ void NormLimit::limit(Forces& forces, LimitReasons& reasons) const noexcept {
   }
   const double largest_mean = descriptor_.max_mean_force;
   if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return;
-  const double excess = std::clamp((mean_force_ / largest_mean - kSoftMean) / (1.0 - kSoftMean), 0.0, 1.0);
+  const double excess =
+      std::clamp((mean_force_ / largest_mean - kEnvelope.soft_mean) / (1.0 - kEnvelope.soft_mean), 0.0, 1.0);
   const double limit = descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
   reasons.mean_limited = excess > 0.0 && limit_norm(forces.f, limit);
 }
 
 void NormLimit::observe_given(const Forces& forces, double dt) noexcept {
-  mean_force_ += std::min(1.0, dt / kMeanTime_s) * (forces.f.norm() - mean_force_);
+  mean_force_ += std::min(1.0, dt / kEnvelope.mean_time_s) * (forces.f.norm() - mean_force_);
 }
 
 void limit_power(Forces& forces, const GloveState& state, double max_power, LimitReasons& reasons) noexcept {
@@ -76,8 +74,8 @@ RateLimit::RateLimit(const DeviceDescriptor& descriptor, double period_s)
     : force_rate_(rate_or_default(descriptor.max_force_rate, descriptor.max_force, descriptor)),
       torque_rate_(rate_or_default(descriptor.max_torque_rate, descriptor.max_torque, descriptor)),
       joint_torque_rate_(joint_torque_rate(descriptor)),
-      max_force_(std::min(descriptor.max_force, force_rate_ * (kLongestFallPeriods * period_s))),
-      max_torque_(std::min(descriptor.max_torque, torque_rate_ * (kLongestFallPeriods * period_s))) {}
+      max_force_(std::min(descriptor.max_force, force_rate_ * (kEnvelope.longest_fall_periods * period_s))),
+      max_torque_(std::min(descriptor.max_torque, torque_rate_ * (kEnvelope.longest_fall_periods * period_s))) {}
 
 void RateLimit::limit(Forces& forces, const Forces& last, double dt, LimitReasons& reasons) const noexcept {
   const bool force_limited = limit_step(forces.f, last.f, force_rate_ * dt);

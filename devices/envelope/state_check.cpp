@@ -4,21 +4,13 @@
 #include <cmath>
 
 #include "envelope/envelope_numbers.h"
+#include "envelope/envelope_settings.h"
 
 namespace glissade::devices {
 
 namespace {
 
 using std::chrono::nanoseconds;
-
-constexpr nanoseconds kDistrust = std::chrono::milliseconds(100);
-constexpr nanoseconds kLateForGood = std::chrono::seconds(1);
-constexpr std::int64_t kDriftShare = 5000;  // clocks may drift apart by one part in so many
-constexpr double kJumpTolerance_m = 1e-3;
-constexpr double kTurnTolerance = 1e-2;  // rad
-constexpr double kSpeedMismatch = 0.5;   // share of the largest speed
-constexpr double kLongestRepeat_s = 0.1;
-constexpr double kMuchFaster = 5.0;  // times the largest speed: no hand, but the tracker
 
 double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
   const double cosine = 0.5 * ((A.transpose() * B).trace() - 1.0);
@@ -29,13 +21,13 @@ double angle_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcep
 
 std::optional<BookedMotion> StateCheck::observe(const GloveState& state, nanoseconds now) noexcept {
   if (!is_finite(state)) {
-    distrust_until_ = now + kDistrust;
+    distrust_until_ = now + kEnvelope.distrust;
     return std::nullopt;
   }
   const bool is_new = !has_state_ || state.sequence != state_.sequence || state.time != state_.time;
   if (!is_new) return std::nullopt;
   const bool plausible = is_plausible(state);
-  if (!plausible) distrust_until_ = now + kDistrust;
+  if (!plausible) distrust_until_ = now + kEnvelope.distrust;
   const bool catches_up = !plausible && may_have_gone_to(state);
   update_offset(state, now);
   const nanoseconds measured = state.time + offset_;
@@ -69,11 +61,11 @@ bool StateCheck::is_plausible(const GloveState& state) const noexcept {
   }
   const double dt = in_seconds(state.time - state_.time);
   const Eigen::Vector3d moved = state.X_WH.translation() - state_.X_WH.translation();
-  if (moved.norm() > descriptor_.max_speed * dt + kJumpTolerance_m) return false;
+  if (moved.norm() > descriptor_.max_speed * dt + kEnvelope.jump_tolerance_m) return false;
   const double turned = angle_between(state_.X_WH.linear(), state.X_WH.linear());
-  if (turned > descriptor_.max_turn_rate * dt + kTurnTolerance) return false;
+  if (turned > descriptor_.max_turn_rate * dt + kEnvelope.turn_tolerance_rad) return false;
   const Eigen::Vector3d unexplained = moved - 0.5 * dt * (state.v_WH + state_.v_WH);
-  return unexplained.norm() <= kSpeedMismatch * descriptor_.max_speed * dt + kJumpTolerance_m;
+  return unexplained.norm() <= kEnvelope.speed_mismatch * descriptor_.max_speed * dt + kEnvelope.jump_tolerance_m;
 }
 
 /// Whether the hand may have gone to this pose: while the last one repeated to the bit, of which 0.1 s counts; or since
@@ -81,21 +73,21 @@ bool StateCheck::is_plausible(const GloveState& state) const noexcept {
 bool StateCheck::may_have_gone_to(const GloveState& state) const noexcept {
   if (!has_state_ || state.time < state_.time) return false;
   const double way = (state.X_WH.translation() - state_.X_WH.translation()).norm();
-  const double repeated_s = std::min(in_seconds(state.time - pose_time_), kLongestRepeat_s);
-  const double seconds = std::max(repeated_s, kMuchFaster * in_seconds(state.time - state_.time));
-  return way <= descriptor_.max_speed * seconds + kJumpTolerance_m;
+  const double repeated_s = std::min(in_seconds(state.time - pose_time_), kEnvelope.longest_repeat_s);
+  const double seconds = std::max(repeated_s, kEnvelope.much_faster * in_seconds(state.time - state_.time));
+  return way <= descriptor_.max_speed * seconds + kEnvelope.jump_tolerance_m;
 }
 
 void StateCheck::update_offset(const GloveState& state, nanoseconds now) noexcept {
   const nanoseconds difference = now - state.time;
   const bool is_first = !has_state_ || state.time < state_.time;
   // A clock that stands still does not go wrong, it fails.
-  const bool is_late_for_good =
-      late_since_ && now - *late_since_ > kLateForGood && state.time - late_time_ > kLateForGood / 2;
+  const bool is_late_for_good = late_since_ && now - *late_since_ > kEnvelope.late_for_good &&
+                                state.time - late_time_ > kEnvelope.late_for_good / 2;
   if (is_first || is_late_for_good) {
     offset_ = difference;
   } else {
-    offset_ = std::min(offset_ + (state.time - state_.time) / kDriftShare, difference);
+    offset_ = std::min(offset_ + (state.time - state_.time) / kEnvelope.drift_share, difference);
   }
   if (difference - offset_ <= patience_) {
     late_since_.reset();

@@ -3,19 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "envelope/envelope_settings.h"
+
 namespace glissade::devices {
 namespace {
-
-constexpr double kUsualResolution_m = 30e-6;  // of a device that does not tell
-constexpr double kPlayPerResolution = 4.0;    // noise of this standard deviation hardly ever leaves it
-constexpr double kPlayLever_m = 0.1;          // rotations count by the way at this distance
-constexpr double kForget_s = 0.5;
-constexpr double kMostStirred_J = 0.01;  // to and fro, from which a contact is not calm
-constexpr double kMostGiven_J = 0.1;
-constexpr double kMeanSpeed_s = 0.03;
-constexpr double kRestingSpeed_m_per_s = 0.03;
-constexpr double kRestingTurnRate = 0.5;  // rad/s
-constexpr std::chrono::milliseconds kRested{500};
 
 /// What of the vector is longer than `play`.
 Eigen::Vector3d beyond(double play, const Eigen::Vector3d& vector) noexcept {
@@ -31,13 +22,13 @@ Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B)
 }
 
 PoseInPlay::PoseInPlay(double resolution, double max_force) noexcept
-    : play_(kPlayPerResolution * (resolution > 0.0 ? resolution : kUsualResolution_m)) {
-  if (max_force > 0.0) play_ = std::min(play_, 0.5 * kMostStirred_J / max_force);
+    : play_(kEnvelope.play_per_resolution * (resolution > 0.0 ? resolution : kEnvelope.usual_resolution_m)) {
+  if (max_force > 0.0) play_ = std::min(play_, 0.5 * kEnvelope.most_stirred_J / max_force);
 }
 
 PoseInPlay::Step PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
   const Step step{beyond(play_, X_WH.translation() - X_WH_.translation()),
-                  beyond(play_ / kPlayLever_m, turn_between(X_WH_.linear(), X_WH.linear()))};
+                  beyond(play_ / kEnvelope.play_lever_m, turn_between(X_WH_.linear(), X_WH.linear()))};
   X_WH_.translation() += step.way;
   if (!step.turn.isZero(0.0)) {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(step.turn.norm(), step.turn.normalized()).toRotationMatrix();
@@ -56,24 +47,24 @@ void Strokes::observe(const BookedMotion& motion, double seconds, const GivenWre
       [&](double u) { return Eigen::Vector3d(u * step.turn); });
   // No more than that counts, so that a contact is calm soon after a great stroke.
   double& stirred = work < 0.0 ? came_ : went_;
-  stirred = std::min(stirred + std::abs(work), kMostStirred_J);
+  stirred = std::min(stirred + std::abs(work), kEnvelope.most_stirred_J);
   if (seconds <= 0.0) return;
-  const double share = std::min(1.0, seconds / kMeanSpeed_s);
+  const double share = std::min(1.0, seconds / kEnvelope.mean_speed_s);
   v_WH_ += share * (step.way / seconds - v_WH_);
   w_WH_ += share * (step.turn / seconds - w_WH_);
-  const bool moves = std::abs(v_WH_.dot(wanted.f.normalized())) > kRestingSpeed_m_per_s ||
-                     std::abs(w_WH_.dot(wanted.t.normalized())) > kRestingTurnRate;
-  if (moves) moves_until_ = motion.end + kRested;
+  const bool moves = std::abs(v_WH_.dot(wanted.f.normalized())) > kEnvelope.resting_m_per_s ||
+                     std::abs(w_WH_.dot(wanted.t.normalized())) > kEnvelope.resting_rad_per_s;
+  if (moves) moves_until_ = motion.end + kEnvelope.rested;
 }
 
 void Strokes::book(double change) noexcept {
   // Both bounds let old strokes be forgotten soon. Energy given to the hand is remembered for longer than energy put
   // in.
-  balance_ = std::clamp(balance_ + change, -kMostGiven_J, kMostStirred_J);
+  balance_ = std::clamp(balance_ + change, -kEnvelope.most_given_J, kEnvelope.most_stirred_J);
 }
 
 void Strokes::forget(double dt) noexcept {
-  const double kept = 1.0 - std::min(1.0, dt / kForget_s);
+  const double kept = 1.0 - std::min(1.0, dt / kEnvelope.forget_s);
   came_ *= kept;
   went_ *= kept;
   balance_ *= kept;
@@ -81,7 +72,7 @@ void Strokes::forget(double dt) noexcept {
 
 double Strokes::calm() const noexcept {
   // A force that comes back and slowly moves the hand is no oscillation.
-  return std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kMostStirred_J);
+  return std::max(0.0, 1.0 - 2.0 * std::min(came_, went_) / kEnvelope.most_stirred_J);
 }
 
 }  // namespace glissade::devices

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "envelope/envelope_settings.h"
 #include "envelope/forces.h"
 
 namespace glissade::devices {
@@ -37,10 +38,9 @@ class Supply {
 
   /// What the hand gives up of the energy that it can spare. What it does not have is forgotten within some seconds.
   double give_up(double spare, double dt) noexcept {
-    constexpr double kForgotten_s = 1.0;
     const double taken = std::clamp(spare, 0.0, owed_);
     taken_ += taken;
-    owed_ = (owed_ - taken) * (1.0 - std::min(1.0, dt / kForgotten_s));
+    owed_ = (owed_ - taken) * (1.0 - std::min(1.0, dt / kEnvelope.forgotten_s));
     return taken;
   }
 

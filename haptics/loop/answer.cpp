@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "loop/loop_settings.h"
+
 namespace glissade::haptics {
 
 namespace {
-
-constexpr double kLongestCatchUp_ms = 250.0;
-// A call that comes later than this goes in steps of this, or in the largest number of them.
-constexpr double kStep_ms = 5.0;
-constexpr double kMostSteps = 5.0;
 
 Eigen::Isometry3d between(const Eigen::Isometry3d& X_from, const Eigen::Isometry3d& X_to, double share) {
   const Eigen::Vector3d origin = Eigen::Vector3d::Zero();
@@ -78,8 +75,8 @@ void Answerer::answer(const Ghosts& ghosts, std::chrono::nanoseconds first, Cont
   // An answer that takes long must not slow the parts down: the slew is a speed.
   const std::chrono::nanoseconds passed = answered_ ? ghosts.time - answered_->time : first;
   const double milliseconds =
-      std::clamp(std::chrono::duration<double, std::milli>(passed).count(), 0.0, kLongestCatchUp_ms);
-  const double steps = answered_ ? std::clamp(std::floor(milliseconds / kStep_ms), 1.0, kMostSteps) : 1.0;
+      std::clamp(std::chrono::duration<double, std::milli>(passed).count(), 0.0, kLoop.longest_catch_up_ms);
+  const double steps = answered_ ? std::clamp(std::floor(milliseconds / kLoop.step_ms), 1.0, kLoop.most_steps) : 1.0;
   const std::int64_t ended_early = sliding_.call_statistics().ended_early;
   double step = 1.0;
   // Where the work of one step is as much as a call may do, more steps would make the next call later still.

@@ -4,14 +4,12 @@
 
 #include <glissade/contact/spring.h>
 
+#include "loop/loop_settings.h"
 #include "loop/smooth.h"
 
 namespace glissade::haptics {
 
 namespace {
-
-constexpr double kFastestGhost = 2.0;  // m/s; motion beyond is no reason for a faster change of the force
-constexpr double kReturn_s = 0.2;
 
 /// N: the force or, if greater, the force at the radius that has this torque.
 double size_of(const contact::Wrench& wrench, double radius) {
@@ -35,11 +33,12 @@ const contact::Wrench& ContactForce::update(const PartContacts& contacts, std::c
                                             double ghost_motion, double dt) noexcept {
   const contact::Wrench all = limited(contacts.wrench, max_force_, radius_);
   const double share_of_age = force_share(age);
-  share_ = std::min(share_of_age * contacts.known, share_ + dt / kReturn_s);
+  share_ = std::min(share_of_age * contacts.known, share_ + dt / kLoop.return_s);
   const contact::Wrench wanted = scaled(all, share_);
 
   constexpr double kSlew_m_per_s = contact::kSlew_m / 1e-3;
-  double longest = stiffness_.translational * (kSlew_m_per_s * dt + 2.0 * std::min(ghost_motion, kFastestGhost * dt));
+  double longest =
+      stiffness_.translational * (kSlew_m_per_s * dt + 2.0 * std::min(ghost_motion, kLoop.fastest_ghost_m_per_s * dt));
   if (size_of(wanted, radius_) < size_of(wrench_, radius_)) {
     longest = std::max(longest, max_force_ * dt / std::chrono::duration<double>(kLongestFall).count());
   }

@@ -5,15 +5,12 @@
 
 #include <glissade/contact/spring.h>
 
+#include "loop/loop_settings.h"
 #include "loop/smooth.h"
 
 namespace glissade::haptics {
 
 namespace {
-
-/// Metres beyond the range of a row up to which its plane may stand for what comes after it, and from which it may not.
-constexpr double kKnown_m = 3e-3;
-constexpr double kUnknown_m = 9e-3;
 
 /// The motion of the contact point of a row across its normal, metres.
 double across(const contact::CoupledRow& row, std::span<const geometry::Displacement> d) {
@@ -179,10 +176,9 @@ void ContactProjection::add_friction(std::span<const contact::CouplingStiffness>
 /// Notes the way since the last call. A way that no hand can make is none: the part was taken elsewhere.
 void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP, const Eigen::Vector3d& p_Vref,
                                 double dt) noexcept {
-  constexpr double kFastest = 10.0;  // m/s
   if (X_WP_[part]) {
     const geometry::Displacement way = geometry::displacement_between(*X_WP_[part], X_WP, p_Vref);
-    if (way.v.norm() <= kFastest * dt) way_[part] = way;
+    if (way.v.norm() <= kLoop.fastest_part_m_per_s * dt) way_[part] = way;
   }
   X_WP_[part] = X_WP;
 }
@@ -193,7 +189,7 @@ void ContactProjection::add_push(std::size_t row_number, double push,
   const contact::CoupledRow& projected = in_island_[row_number];
   const ContactRow& row = *rows_[numbers_[row_number]].in_set;
   const double known =
-      push * smoothly_down(across(projected, projection.displacements) - row.range, kKnown_m, kUnknown_m);
+      push * smoothly_down(across(projected, projection.displacements) - row.range, kLoop.known_m, kLoop.unknown_m);
   const auto acts = [&](std::int32_t part) { return part >= 0 && acts_[static_cast<std::size_t>(part)]; };
   const auto way_of = [&](std::int32_t part, const Eigen::Vector3d& r) {
     const geometry::Displacement& way = way_[static_cast<std::size_t>(part)];

@@ -7,23 +7,13 @@
 #include <glissade/contact/spring.h>
 #include <glissade/haptics/finger_forces.h>
 
+#include "loop/loop_settings.h"
+
 namespace glissade::haptics {
 namespace {
 
 constexpr int kSweeps = 20;
-constexpr double kSmallForces = 0.05;  // against forces that cancel each other
-constexpr double kFollows_s = 30e-3;
-constexpr double kFades_s = 2e-3;
-constexpr double kMostEnergy_J = 40e-3;
-constexpr double kFades_J = 10e-3;  // below which the torques fade
-constexpr double kMostShare = 0.5;  // of the largest torque of a joint
-// The glove's segment may be so far off the part: up to kFull_m the load is full, from kNone_m on it is zero.
-constexpr double kFull_m = 0.2e-3;
-constexpr double kNone_m = 1.2e-3;
 constexpr double kLeastSquare_m2 = 1e-12;
-constexpr double kRefill_W = 5e-3;
-constexpr double kLongestSilence_s = 0.1;    // between states
-constexpr double kFastest_rad_per_s = 30.0;  // a finger; faster is an error of its sensor
 
 }  // namespace
 
@@ -48,7 +38,7 @@ const hands::JointValues& FingerLoad::update(const HandAnswer& hand, const Load&
       has_angles_ && load.part >= 0 && load.radius > 0.0 && !(load.wrench.f.isZero(0.0) && load.wrench.t.isZero(0.0));
   if (is_loaded) share(hand, load);
   follow(hand, angles, dt);
-  const double left = std::clamp(energy_ / kFades_J, 0.0, 1.0);
+  const double left = std::clamp(energy_ / kLoop.load_fades_J, 0.0, 1.0);
   for (std::size_t j = 0; j < torques_.size(); ++j)
     torques_[j] = std::clamp(left * fading_[j] * borne_[j], -max_torque_ - springs[j], max_torque_ - springs[j]);
   newest_ = (newest_ + 1) % kGiven;
@@ -68,7 +58,7 @@ void FingerLoad::share(const HandAnswer& hand, const Load& load) noexcept {
       if (rows[i].part != load.part) continue;
       const Vector6& d = directions_[i];
       const double square = d.squaredNorm();
-      const double force = std::max(0.0, (d.dot(left) + square * forces_[i]) / (square + kSmallForces));
+      const double force = std::max(0.0, (d.dot(left) + square * forces_[i]) / (square + kLoop.small_forces));
       left -= (force - forces_[i]) * d;
       forces_[i] = force;
     }
@@ -81,7 +71,7 @@ void FingerLoad::share(const HandAnswer& hand, const Load& load) noexcept {
     double squares = kLeastSquare_m2;
     for (std::size_t j = 0; j < bears_.size(); ++j)
       squares += bears_[j] ? rows[i].rates[j] * rows[i].rates[j] : 0.0;
-    forces_[i] = std::min(forces_[i], stiffness_ * (kNone_m - kFull_m) / (pressing * squares));
+    forces_[i] = std::min(forces_[i], stiffness_ * (kLoop.load_none_m - kLoop.load_full_m) / (pressing * squares));
   }
 }
 
@@ -95,19 +85,20 @@ void FingerLoad::follow(const HandAnswer& hand, const hands::JointValues& angles
     double gap = rows[i].gap;
     for (std::size_t j = 0; j < angles.size(); ++j)
       gap += rows[i].rates[j] * (angles[j] - hand.visible.angles[j]);
-    const double force = forces_[i] * std::clamp((kNone_m - gap) / (kNone_m - kFull_m), 0.0, 1.0);
+    const double force =
+        forces_[i] * std::clamp((kLoop.load_none_m - gap) / (kLoop.load_none_m - kLoop.load_full_m), 0.0, 1.0);
     for (std::size_t j = 0; j < whole.size(); ++j) {
       whole[j] += forces_[i] * rows[i].rates[j];
       present[j] += force * rows[i].rates[j];
     }
   }
-  const double step = max_torque_ * dt / kFollows_s;
+  const double step = max_torque_ * dt / kLoop.load_follows_s;
   for (std::size_t j = 0; j < whole.size(); ++j) {
     double wanted = 0.0;
     if (whole[j] != 0.0 && bears_[j]) {
-      wanted = std::clamp(whole[j], -kMostShare * max_torque_, kMostShare * max_torque_);
+      wanted = std::clamp(whole[j], -kLoop.load_share * max_torque_, kLoop.load_share * max_torque_);
       const double share = std::clamp(present[j] / whole[j], 0.0, 1.0);
-      const double step_of_share = borne_[j] == 0.0 ? 1.0 : dt / kFades_s;
+      const double step_of_share = borne_[j] == 0.0 ? 1.0 : dt / kLoop.load_fades_s;
       fading_[j] += std::clamp(share - fading_[j], -step_of_share, step_of_share);
     }
     borne_[j] += std::clamp(wanted - borne_[j], -step, step);
@@ -116,11 +107,11 @@ void FingerLoad::follow(const HandAnswer& hand, const hands::JointValues& angles
 
 /// Of the motion since the last new angles, under the mean of the torques that acted then.
 void FingerLoad::count_energy(const hands::JointValues& angles, double dt) noexcept {
-  unseen_s_ = std::min(unseen_s_ + dt, kLongestSilence_s);
+  unseen_s_ = std::min(unseen_s_ + dt, kLoop.load_silence_s);
   const bool is_finite = std::all_of(angles.begin(), angles.end(), [](double angle) { return std::isfinite(angle); });
   const bool is_new = is_finite && !(has_angles_ && angles == last_angles_);
   if (is_new && has_angles_) {
-    const double most = kFastest_rad_per_s * unseen_s_;
+    const double most = kLoop.load_fastest_rad_per_s * unseen_s_;
     const auto ticks = static_cast<std::size_t>(std::max(1.0, std::round(unseen_s_ / period_s_)));
     const auto late = static_cast<std::size_t>(std::min(std::round(delay_s_ / period_s_), 0.5 * kGiven));
     for (std::size_t j = 0; j < angles.size(); ++j) {
@@ -130,7 +121,7 @@ void FingerLoad::count_energy(const hands::JointValues& angles, double dt) noexc
       energy_ -= sum / static_cast<double>(ticks) * std::clamp(angles[j] - last_angles_[j], -most, most);
     }
   }
-  energy_ = std::clamp(energy_ + kRefill_W * dt, 0.0, kMostEnergy_J);
+  energy_ = std::clamp(energy_ + kLoop.load_refill_W * dt, 0.0, kLoop.load_most_J);
   has_angles_ = is_finite;
   if (!is_new) return;
   unseen_s_ = 0.0;

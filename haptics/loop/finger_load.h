@@ -17,6 +17,8 @@
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
 
+#include "loop/loop_settings.h"
+
 namespace glissade::haptics {
 
 /// The part presses on each segment along the normal of their contact, and never pulls. Of all such forces, those are
@@ -72,7 +74,6 @@ class FingerLoad {
   void follow(const HandAnswer& hand, const hands::JointValues& angles, double dt) noexcept;
   void count_energy(const hands::JointValues& angles, double dt) noexcept;
 
-  static constexpr double kStart_J = 20e-3;
   /// Ticks: at 5 kHz 0.1 s of delay and 0.1 s without a state. A longer delay leaves next to no load.
   static constexpr std::size_t kGiven = 1024;
 
@@ -91,7 +92,7 @@ class FingerLoad {
   hands::JointValues last_angles_{};
   bool has_angles_ = false;
   double unseen_s_ = 0.0;  // since the angles last changed
-  double energy_ = kStart_J;
+  double energy_ = kLoop.load_start_J;
 };
 
 }  // namespace glissade::haptics

@@ -8,6 +8,8 @@
 
 #include <glissade/contact/spring.h>
 
+#include "loop/loop_settings.h"
+
 namespace glissade::haptics {
 namespace {
 
@@ -44,13 +46,13 @@ bool FingersOfHand::have_angles(const devices::GloveState& state) noexcept {
 }
 
 void FingersOfHand::move_palm(const devices::GloveState& state, double dt) noexcept {
-  constexpr double kFastest_rad_per_s = 30.0;
   X_WP_ = state.X_WH;
   for (const WristJoint& joint : hand_.wrist) {
     const std::size_t j = joint.angle;
     const double wanted = std::clamp(state.joint_angles[j], hand_.lower[j], hand_.upper[j]);
-    const double step = is_found_ ? std::clamp(wanted - angles_[j], -kFastest_rad_per_s * dt, kFastest_rad_per_s * dt)
-                                  : wanted - angles_[j];
+    const double step = is_found_
+                            ? std::clamp(wanted - angles_[j], -kLoop.palm_rad_per_s * dt, kLoop.palm_rad_per_s * dt)
+                            : wanted - angles_[j];
     angles_[j] += step;
     X_WP_ = X_WP_ * joint.X_PJ * Eigen::AngleAxisd(angles_[j], joint.axis_J);
   }
@@ -77,12 +79,11 @@ hands::JointValues FingersOfHand::torques(const devices::GloveState& state, cons
 }
 
 void FingersOfHand::note(const devices::GloveState* seen, std::optional<std::size_t> part, double dt) noexcept {
-  constexpr double kPatience_s = 0.1;
   // One that comes late may be too old for a force, but tells all the same where the hand is.
   const bool has_come = seen != nullptr && std::exchange(time_seen_, seen->time) != seen->time;
   unseen_s_ = has_come ? 0.0 : unseen_s_ + dt;
   ghost_.part = part ? static_cast<std::int32_t>(*part) : -1;
-  ghost_.is_tracked = is_found_ && unseen_s_ < kPatience_s;
+  ghost_.is_tracked = is_found_ && unseen_s_ < kLoop.lost_after_s;
   if (seen == nullptr) return;
   ghost_.X_WH = seen->X_WH;
   ghost_.angles = seen->joint_angles;

@@ -19,6 +19,7 @@
 
 #include "loop/contact_force.h"
 #include "loop/fingers_of_hand.h"
+#include "loop/loop_settings.h"
 
 namespace glissade::haptics {
 
@@ -50,10 +51,8 @@ struct HandInDevice {
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against
   /// the force. From the work against the withheld and the exerted force in this tick, the energy to lift it with.
   double lift(double against_withheld, double against_exerted, double dt) noexcept {
-    constexpr double kMostLifts_J = 1.0;
-    constexpr double kRecovery_W = 0.1;
     owed = std::max(0.0, owed + against_withheld);
-    lifts = std::min(kMostLifts_J, lifts + kRecovery_W * dt);
+    lifts = std::min(kLoop.most_lift_J, lifts + kLoop.lift_W * dt);
     const double lifted = std::clamp(-against_exerted, 0.0, std::min(owed, lifts));
     owed -= lifted;
     lifts -= lifted;
@@ -65,15 +64,14 @@ struct HandInDevice {
   /// contact normals. It applies to what is wanted from now on: a force that is there falls from where it is.
   double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
                 double distance, bool is_new, double dt) noexcept {
-    constexpr double kTime_s = 0.1;
-    constexpr double kMost_s = 1.0;
-    constexpr double kFastest_m_per_s = 10.0;
-    const double delay_s = std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kMost_s);
-    link_delay_s += std::min(1.0, dt / kTime_s) * (delay_s - link_delay_s);
+    const double delay_s =
+        std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kLoop.longest_link_delay_s);
+    link_delay_s += std::min(1.0, dt / kLoop.follows_link_s) * (delay_s - link_delay_s);
     if (std::isfinite(distance)) {
       // A state that is wrong for a moment moves it little.
-      const double most = is_new ? distance + lever_m : kFastest_m_per_s * dt;
-      lever_m += std::clamp((is_new ? 1.0 : std::min(1.0, dt / kTime_s)) * (distance - lever_m), -most, most);
+      const double most = is_new ? distance + lever_m : kLoop.fastest_lever_m_per_s * dt;
+      lever_m +=
+          std::clamp((is_new ? 1.0 : std::min(1.0, dt / kLoop.follows_link_s)) * (distance - lever_m), -most, most);
     }
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));

@@ -8,6 +8,8 @@
 
 #include <glissade/haptics/contact_set.h>
 
+#include "loop/loop_settings.h"
+
 namespace glissade::haptics {
 
 /// Parts in the hands of others push a hand and yield to it. The energy for that passes through this ledger: a hand is
@@ -25,8 +27,7 @@ class HandLedger {
 
   /// Once a tick, `dt` (seconds) after the last.
   void begin_tick(double dt) noexcept {
-    constexpr double kForgotten_s = 1.0;
-    const double kept = 1.0 - std::min(1.0, dt / kForgotten_s);
+    const double kept = 1.0 - std::min(1.0, dt / kLoop.forgotten_s);
     given_up_ *= kept;
     for (Account& account : accounts_) {
       account.asked_for_hands *= kept;

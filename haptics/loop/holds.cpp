@@ -5,14 +5,9 @@
 #include <glissade/contact/spring.h>
 #include <glissade/geometry/displacement.h>
 
+#include "loop/loop_settings.h"
+
 namespace glissade::haptics {
-
-namespace {
-
-constexpr double kJoin_s = 0.2;
-constexpr double kLeave_s = 0.05;
-
-}  // namespace
 
 Holds::Holds(std::size_t parts, std::vector<std::array<contact::CouplingStiffness, contact::kMaxParts>> stiffness)
     : stiffness_(std::move(stiffness)), hands_(stiffness_.size()), parts_(parts), led_(parts) {}
@@ -105,7 +100,7 @@ void Holds::weigh(Hand& hand, const HandPose& pose, double dt) noexcept {
     return;
   }
   if (pose.is_fading) {
-    hand.weight = std::max(0.0, hand.weight - dt / kLeave_s);
+    hand.weight = std::max(0.0, hand.weight - dt / kLoop.leaves_s);
     hand.is_lost = hand.is_lost || hand.weight == 0.0;
     return;
   }
@@ -113,7 +108,7 @@ void Holds::weigh(Hand& hand, const HandPose& pose, double dt) noexcept {
     hand.X_HG = pose.X_WH->inverse() * parts_[*hand.part].ghost.X_WG;
     hand.is_lost = false;
   }
-  hand.weight = std::min(1.0, hand.weight + dt / kJoin_s);
+  hand.weight = std::min(1.0, hand.weight + dt / kLoop.joins_s);
 }
 
 /// Finds the ghost of a part that is held, and what each hand has of it.
