@@ -9,6 +9,7 @@
 #include <glissade/apps/open_files.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/wait_notice.h>
 #include <glissade/files/file_checks.h>
 #include <glissade/geometry/mesh_import.h>
 
@@ -44,6 +45,7 @@ void add_strict_option(CLI::App& command) {
 
 geometry::ImportedMesh import_with_warnings(const std::string& path, double scale) {
   check_input(path);
+  const WaitNotice notice("reading " + path);
   geometry::ImportedMesh imported = geometry::import_mesh(path, scale);
   for (const std::string& sentence : imported.warnings)
     warn_or_refuse(path + ": " + sentence);
@@ -57,7 +59,11 @@ std::shared_ptr<const geometry::TriangleMesh> open_mesh(const std::string& path,
 }
 
 Scene open_scene(const std::string& path) {
-  Scene scene = read_scene(path);
+  const auto read = [&path] {
+    const WaitNotice notice("reading " + path + " and its meshes");
+    return read_scene(path);
+  };
+  Scene scene = read();
   std::set<const geometry::TriangleMesh*> said;
   for (const SceneObject& object : scene.objects) {
     const SceneMesh& mesh = object.mesh;

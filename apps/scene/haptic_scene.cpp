@@ -4,10 +4,12 @@
 
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
+#include <glissade/apps/wait_notice.h>
 
 namespace glissade::apps {
 
 HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>& part_names) {
+  const WaitNotice notice("preparing the meshes of " + scene.source);
   HapticScene result{simulation::bodies_of(scene, part_names)};
   result.shown = shown_objects(scene, part_names);
   for (const SceneObject& object : scene.objects) {

@@ -1,6 +1,10 @@
+#include <chrono>
+#include <thread>
+
 #include <gtest/gtest.h>
 
 #include <glissade/apps/progress.h>
+#include <glissade/apps/wait_notice.h>
 
 namespace glissade::apps {
 namespace {
@@ -18,6 +22,18 @@ TEST(ProgressLine, NeverLeavesItsBar) {
 TEST(ProgressLine, TellsTheSimulatedTime) {
   EXPECT_EQ(simulated_time(1234, 6000), "1.234 of 6.000 s simulated");
   EXPECT_EQ(simulated_time(7000, 6000), "6.000 of 6.000 s simulated");
+}
+
+TEST(WaitNotice, OneLineIfTheWorkTakesLong) {
+  testing::internal::CaptureStderr();
+  { const WaitNotice notice("reading door.stl"); }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  testing::internal::CaptureStderr();
+  {
+    const WaitNotice notice("reading door.stl");
+    std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+  }
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "glissade: reading door.stl ...\n");
 }
 
 }  // namespace

@@ -1,0 +1,26 @@
+#include <chrono>
+#include <utility>
+
+#include <glissade/apps/say.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/wait_notice.h>
+
+namespace glissade::apps {
+
+WaitNotice::WaitNotice(std::string doing)
+    : thread_([this, doing = std::move(doing)] {
+        std::unique_lock lock(mutex_);
+        const bool is_short = ended_.wait_for(lock, std::chrono::seconds(2), [this] { return has_ended_; });
+        if (!is_short) say("glissade: " + one_line(doing) + " ...");
+      }) {}
+
+WaitNotice::~WaitNotice() {
+  {
+    const std::scoped_lock lock(mutex_);
+    has_ended_ = true;
+  }
+  ended_.notify_one();
+  thread_.join();
+}
+
+}  // namespace glissade::apps
