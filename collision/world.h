@@ -93,7 +93,7 @@ class World {
   /// groups are enabled for each other and the pair itself is not disabled. Initially, all groups and pairs are
   /// enabled. All four functions are symmetric, and `group_a` may equal `group_b`. `enable_pair` undoes `disable_pair`,
   /// but does not override groups. All four functions throw std::invalid_argument for a group outside 0 to 63 or a
-  /// stale id. A take of the consumer may happen between `add` and `disable_pair`. So use groups for objects that must
+  /// stale id. The consumer may call `take` between `add` and `disable_pair`. So use groups for objects that must
   /// never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);

@@ -70,10 +70,10 @@ std::string to_text(const SafeCommand& command);
 ///
 /// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`,
 /// times the exerted share of the wanted wrench, counts as energy that the hand has put in, at no more than the
-/// device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy beyond 0.1 J that
-/// the wanted wrench does not need, so no force shrinks. The rest of the request decays with a time constant of 1 s.
-/// `SafeCommand::taken` is the energy given up. After an interruption or a change of the sender, `taken` restarts at 0,
-/// and the difference from the earlier `supply` does not count.
+/// device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy above 0.1 J, and
+/// only the part that the wanted wrench does not need. So no force shrinks. The rest of the request decays with a time
+/// constant of 1 s. `SafeCommand::taken` is the energy given up. After an interruption or a change of the sender,
+/// `taken` restarts at 0, and the difference from the earlier `supply` does not count.
 ///
 /// A constant link delay does not make commands old if the whole round trip takes at most 150 ms: the smallest age of
 /// all commands in the last half second or longer (`link_delay`) is subtracted from the age of each command.

@@ -52,7 +52,7 @@ struct SimulatedGloveParameters {
   /// friction of glove and finger together.
   double finger_time_constant = 0.05;
   hands::JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
-  /// Joint angles of the open hand. Without a value, the hand opens without moving its fingers.
+  /// Joint angles of the open hand. Without a value, the hand lets go, and its fingers stay where they are.
   std::optional<hands::JointValues> open_posture{};
   /// Joint angles over the time of the script. If there are entries, they replace the grasp posture and the open
   /// posture. Otherwise, the grip selects one of the two postures.

@@ -24,8 +24,8 @@ std::ofstream open_output(const std::string& path);
 /// must not be a pipe, because a run cannot wait for a reader. The file may exist already only if `overwrites` is true.
 void check_recording(const std::string& path, bool overwrites);
 
-/// Checks that all files are different. Each pair has an option and the file that it names. Empty names are left out,
-/// and "-" is standard output.
+/// Checks that all files are different. Each pair has an option and the file named by this option. Empty names are left
+/// out, and "-" is standard output.
 void check_distinct(const std::vector<std::pair<std::string, std::string>>& outputs);
 
 }  // namespace glissade::files

@@ -32,8 +32,9 @@ std::string_view name_of(Finger finger);
 /// of the thumb is its metacarpal.
 enum class HandSegment { kNone, kPalm, kInner, kMiddle, kOuter };
 
-/// The finger and segment of a link, for the grasp analysis. The palm consists of three links with the finger `kNone`,
-/// because its arch moves the metacarpals of ring and little finger. Links without a mesh have the segment `kNone`.
+/// The finger and segment of a link, for the grasp analysis. The palm consists of three links, because its arch moves
+/// the metacarpals of ring and little finger. The finger of these links is `kNone`. Links without a mesh have the
+/// segment `kNone`.
 struct SegmentMeaning {
   Finger finger = Finger::kNone;
   HandSegment segment = HandSegment::kNone;
