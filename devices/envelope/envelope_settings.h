@@ -50,7 +50,7 @@ struct EnvelopeSettings {
   double most_refill_J = 1.0;   ///< allowance for returns and calm contacts. Less: a soft arm is not lifted
   double refill_W = 0.25;       ///< of this allowance; the rest of 0.3 W is for ways that are not measured
   double recovery_W = 0.3;      ///< in free space
-  double calm_refill_W = 0.5;   ///< in a calm contact: 90 % of the force after 2 s of rest
+  double calm_refill_W = 0.6;   ///< in a calm contact: 90 % of the force after 2 s of rest
   double trembling_refill_W = 0.15;  ///< in a contact in which a hand trembles and puts in more than it gets
   std::chrono::milliseconds return_is_free{500};  ///< after a return: the refill lifts the hand at once
   double most_debt_J = 0.3;                       ///< left of a jump of the tracker
