@@ -69,7 +69,7 @@ TEST_F(Cli, InfoTellsTheTrianglesAndTheTree) {
   EXPECT_THAT(glissade({"info", mesh}).standard_output, HasSubstr("watertight"));
 }
 
-TEST_F(Cli, InfoTellsIfAMeshIsOpenOnlyWithoutItsFlatTriangles) {
+TEST_F(Cli, InfoReportsMeshOpenOnlyWithoutZeroAreaTriangles) {
   // A tetrahedron with a T-joint: vertex 5 lies on the edge of vertices 1 and 2, and the triangle 1 2 5 closes the gap.
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0 0\n";
   const std::string closed = "f 1 3 5\nf 5 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\nf 1 5 2\n";
@@ -106,7 +106,7 @@ TEST_F(Cli, CollideMeasuresDistances) {
   }
 }
 
-TEST_F(Cli, CollideWithoutPosesTakesTheMeshesAsTheyStand) {
+TEST_F(Cli, CollideWithoutPosesUsesTheIdentity) {
   const std::string other = folder.write("b.obj", "v 1.5 0 0\nv 1.5 1 0\nv 1.5 0 1\nf 1 2 3\n");
   const ProgramResult result = glissade({"collide", mesh, other, "--distance"});
   EXPECT_EQ(result.standard_error, "");
@@ -152,7 +152,7 @@ TEST_F(Cli, CacheKeepsTheTreesNextToTheMeshes) {
   expect_answer("");
 }
 
-TEST_F(Cli, ATreeThatCannotBeKeptIsNoFailure) {
+TEST_F(Cli, UnsavableTreeCacheIsNoFailure) {
   std::filesystem::create_directories(mesh + ".dop-tree/occupied");
   const ProgramResult expected = glissade({"info", mesh});
   const ProgramResult result = glissade({"info", mesh, "--cache"});
@@ -164,7 +164,7 @@ TEST_F(Cli, ATreeThatCannotBeKeptIsNoFailure) {
   EXPECT_THAT(result.standard_error, HasSubstr("cannot be saved: " + mesh + ".dop-tree: "));
 }
 
-TEST_F(Cli, InfoTellsTheSameOfATreeThatWasKept) {
+TEST_F(Cli, InfoOutputIsTheSameWithACachedTree) {
   const std::string expected = glissade({"info", mesh, "--json"}).standard_output;
   for (int run = 0; run < 2; ++run) {
     const ProgramResult result = glissade({"info", mesh, "--json", "--cache"});
@@ -174,13 +174,13 @@ TEST_F(Cli, InfoTellsTheSameOfATreeThatWasKept) {
   }
 }
 
-TEST_F(Cli, AFullDiskIsAFailureWhileRunning) {
+TEST_F(Cli, FullDiskExitsWithCode1) {
   const ProgramResult result = glissade({"collide", mesh, mesh, "--poses", poses, "--out", "/dev/full"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.standard_error, HasSubstr("glissade: /dev/full"));
 }
 
-TEST_F(Cli, AFullDiskBehindStandardOutputIsAFailureToo) {
+TEST_F(Cli, FullDiskBehindStandardOutputExitsWithCode1) {
   const std::vector<std::vector<std::string>> calls{
       {"info", mesh}, {"info", mesh, "--json"}, {"demo", "--offline", "--seconds", "1"}, {"--help"}};
   for (std::vector<std::string> arguments : calls) {
@@ -247,7 +247,7 @@ TEST_F(Cli, WrongPosesAreRefusedWithLineColumnAndValue) {
   expect_row_refused("0,0,0,0.99,0,0,0", {"poses.csv:3:", "length 0.99"});
 }
 
-TEST_F(Cli, AStrangeFileNameCannotBreakTheLine) {
+TEST_F(Cli, NewlineInFileNameIsPrintedAsSpace) {
   expect_refused({"info", folder.path("a\nb.obj")}, {"a b.obj"});
 }
 

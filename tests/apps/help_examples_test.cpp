@@ -58,7 +58,7 @@ TEST(HelpExamples, WorkAsTheyArePasted) {
             "pose,colliding\n0,0\n1,0\n2,1\n");
 }
 
-TEST(HelpExamples, TheirFilesReplaceNone) {
+TEST(HelpExamples, ExampleFilesOverwriteNoChangedFile) {
   const test_support::TemporaryFolder folder;
   ASSERT_EQ(glissade({"example", folder.path("a")}).exit_code, 0);
   EXPECT_EQ(glissade({"example", folder.path("a")}).exit_code, 0) << "the same again";

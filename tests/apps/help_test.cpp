@@ -20,7 +20,7 @@ using test_support::glissade;
 using test_support::ProgramResult;
 using testing::HasSubstr;
 
-TEST(Help, IsACommandToo) {
+TEST(Help, HelpCommandEqualsHelpOption) {
   EXPECT_EQ(glissade({"help"}).standard_output, glissade({"--help"}).standard_output);
   EXPECT_EQ(glissade({"help", "slide"}).standard_output, glissade({"slide", "--help"}).standard_output);
   EXPECT_EQ(glissade({"help", "log", "to-csv"}).standard_output, glissade({"log", "to-csv", "--help"}).standard_output);
@@ -35,7 +35,7 @@ TEST(Help, HasArgumentsBeforeOptions) {
               HasSubstr("Usage: glissade log to-csv LOG FOLDER [OPTIONS]\n"));
 }
 
-TEST(Help, KnowsWhatWasMeant) {
+TEST(Help, ErrorsSuggestTheNearestName) {
   expect_refused({"inof"}, {"'inof' is not a command", "did you mean 'info'?", "glissade help"});
   expect_refused({"demo", "--ofline"}, {"--ofline is not an option of 'demo'", "did you mean '--offline'?"});
   expect_refused({"demo", "--second=3"}, {"--second ", "did you mean '--seconds'?"});
@@ -58,7 +58,7 @@ TEST(Help, KnowsWhatWasMeant) {
   expect_refused(slide("- {name: a, moveable: true, shape: {type: sphere}}\n"), {"did you mean 'movable'?"});
 }
 
-TEST(Help, CountsSlips) {
+TEST(Help, SuggestsForOneTypoOrAPrefix) {
   const std::vector<std::string> known{"collide", "slide", "info"};
   EXPECT_EQ(did_you_mean("colide", known), " (did you mean 'collide'?)") << "one too few";
   EXPECT_EQ(did_you_mean("slidee", known), " (did you mean 'slide'?)") << "one too many";
@@ -68,7 +68,7 @@ TEST(Help, CountsSlips) {
   EXPECT_EQ(did_you_mean("", known), "");
 }
 
-TEST(Help, AMachineWithoutMulticastGetsTheCommandThatMendsIt) {
+TEST(Help, MissingMulticastRouteErrorNamesTheCommand) {
   const auto run_alone = [](const std::vector<std::string>& command) {
     std::vector<std::string> arguments{"unshare", "-rn"};
     arguments.insert(arguments.end(), command.begin(), command.end());
@@ -85,7 +85,7 @@ TEST(Help, AMachineWithoutMulticastGetsTheCommandThatMendsIt) {
   }
 }
 
-TEST(Numbers, HaveDigitsForPersons) {
+TEST(Numbers, AreRoundedToThreeDigitsOrAnInteger) {
   EXPECT_EQ(rounded_text(10.000000001), "10");
   EXPECT_EQ(rounded_text(0.00123456), "0.00123");
   EXPECT_EQ(rounded_text(-0.0), "0");

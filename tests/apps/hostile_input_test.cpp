@@ -75,7 +75,7 @@ TEST_F(HostileInput, NumbersMustBeFinite) {
   }
 }
 
-TEST_F(HostileInput, NoAnswerIsLostWithSuccess) {
+TEST_F(HostileInput, UnwritableStandardOutputExitsWithCode1) {
   const std::vector<std::vector<std::string>> commands{{"--help"},
                                                        {"--version"},
                                                        {"info", mesh},
@@ -97,14 +97,14 @@ TEST_F(HostileInput, NoAnswerIsLostWithSuccess) {
   EXPECT_EQ(silent.exit_code, 1);
 }
 
-TEST_F(HostileInput, AFileIsNotTakenForAMissingStandardOutput) {
+TEST_F(HostileInput, OutputFileIsNotUsedAsClosedStandardOutput) {
   const ProgramResult result = run_by_shell("exec \"$0\" \"$@\" >&-", slide({"--out", folder.path("out.csv")}));
   EXPECT_EQ(result.exit_code, 1) << "the sentence about the outcome could not be printed";
   EXPECT_EQ(result.standard_error, "glissade: standard output: not everything could be written\n");
   EXPECT_EQ(read_text_file(folder.path("out.csv")), glissade(slide()).standard_output);
 }
 
-TEST_F(HostileInput, HugeFilesAreNotReadToSeeThatTheyAreNoMeshes) {
+TEST_F(HostileInput, HugeInvalidFilesAreRefusedWithoutLoadingThem) {
   if (test_support::kSanitized) GTEST_SKIP() << "a sanitizer takes more address space than is allowed here";
   for (const char* name : {"huge.stl", "huge.obj", "huge.ply", "huge.glb", "huge.gltf", "huge.yaml"}) {
     const std::string path = folder.write(name, "");
@@ -118,7 +118,7 @@ TEST_F(HostileInput, HugeFilesAreNotReadToSeeThatTheyAreNoMeshes) {
   }
 }
 
-TEST_F(HostileInput, NoOutputTakesThePlaceOfAnInput) {
+TEST_F(HostileInput, OutputsMayNotOverwriteInputs) {
   const std::string poses = folder.write("poses.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,1,0,0,0\n");
   const std::string hand = folder.write("fingers.csv", read_text_file(GLISSADE_SCENES "/ball_and_tray_hand.csv"));
   const std::string tray = GLISSADE_SCENES "/ball_and_tray.yaml";
@@ -152,7 +152,7 @@ TEST_F(HostileInput, NoOutputTakesThePlaceOfAnInput) {
   }
 }
 
-TEST_F(HostileInput, ACacheReplacesFilesOnly) {
+TEST_F(HostileInput, TreeCacheReplacesRegularFilesOnly) {
   const std::string cache = mesh + ".dop-tree";
   const std::string other = folder.write("precious", "of somebody else");
   const std::string expected = glissade({"info", mesh}).standard_output;

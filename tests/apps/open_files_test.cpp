@@ -21,7 +21,7 @@ using test_support::TemporaryFolder;
 using testing::HasSubstr;
 
 /// Files with a mesh that has two triangles too many, a point and a line.
-class OpenFiles : public testing::Test {
+class DegenerateTriangles : public testing::Test {
  protected:
   std::string scene(const std::string& objects) const { return folder.write("scene.yaml", "objects:\n" + objects); }
 
@@ -31,7 +31,7 @@ class OpenFiles : public testing::Test {
   std::string sliver = folder.write("sliver.obj", std::string(kTetrahedronObj) + "f 1 1 1\n");
 };
 
-TEST_F(OpenFiles, CollideSaysWhatItLeavesOut) {
+TEST_F(DegenerateTriangles, AreReportedByCollide) {
   const std::string poses = folder.write("poses.csv", "x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,1,0,0,0\n");
   const ProgramResult result = glissade({"collide", sliver, slivers, "--poses", poses});
   EXPECT_EQ(result.exit_code, 0);
@@ -40,12 +40,12 @@ TEST_F(OpenFiles, CollideSaysWhatItLeavesOut) {
   EXPECT_EQ(glissade({"collide", whole, whole, "--poses", poses}).standard_error, "");
 }
 
-TEST_F(OpenFiles, InfoCountsWhatItLeavesOut) {
+TEST_F(DegenerateTriangles, AreCountedByInfo) {
   EXPECT_THAT(glissade({"info", slivers}).standard_output, HasSubstr("left out, without area      2\n"));
   EXPECT_THAT(glissade({"info", slivers, "--json"}).standard_output, HasSubstr("\"degenerate_triangles\": 2"));
 }
 
-TEST_F(OpenFiles, CommandsOfScenesSayWhatTheyLeaveOut) {
+TEST_F(DegenerateTriangles, AreReportedOncePerMeshBySceneCommands) {
   const std::string file = scene(
       "  - {name: part, movable: true, mesh: slivers.obj}\n"
       "  - {name: twin, mesh: slivers.obj, pose: {position_m: [3, 0, 0]}}\n"
@@ -67,7 +67,7 @@ TEST_F(OpenFiles, CommandsOfScenesSayWhatTheyLeaveOut) {
 }
 
 /// A file with a face of two corners, and what every command says of it.
-class MeshWarningsOfCommands : public OpenFiles {
+class MeshWarningsOfCommands : public DegenerateTriangles {
  protected:
   /// The command with the option, which is refused.
   static void expect_strict(std::vector<std::string> arguments, const std::string& warning) {
@@ -80,7 +80,7 @@ class MeshWarningsOfCommands : public OpenFiles {
   std::string line = "glissade: warning: " + warning + "\n";
 };
 
-TEST_F(MeshWarningsOfCommands, OfMeshes) {
+TEST_F(MeshWarningsOfCommands, ArePrintedByInfoAndCollideAndRefusedByStrict) {
   const ProgramResult info = glissade({"info", edge});
   EXPECT_EQ(info.exit_code, 0);
   EXPECT_EQ(info.standard_error, line);
@@ -91,7 +91,7 @@ TEST_F(MeshWarningsOfCommands, OfMeshes) {
   EXPECT_EQ(glissade({"info", slivers, "--strict"}).exit_code, 0) << "triangles without area are no surface";
 }
 
-TEST_F(MeshWarningsOfCommands, OfScenesOnceForEachFile) {
+TEST_F(MeshWarningsOfCommands, ArePrintedOncePerFileBySceneCommands) {
   const std::string file = scene(
       "  - {name: part, movable: true, mesh: edge.obj}\n"
       "  - {name: twin, mesh: edge.obj, pose: {position_m: [3, 0, 0]}}\n"
@@ -112,7 +112,7 @@ TEST_F(MeshWarningsOfCommands, OfScenesOnceForEachFile) {
   expect_strict({"grasp", file, "--hand-trajectory", GLISSADE_SCENES "/ball_and_tray_hand.csv"}, warning);
 }
 
-TEST_F(MeshWarningsOfCommands, CommandsThatLoadMeshesHaveTheOption) {
+TEST_F(MeshWarningsOfCommands, AllCommandsThatLoadMeshesHaveStrict) {
   for (const char* command :
        {"info", "collide", "slide", "grasp", "demo", "run", "record", "replay", "export", "view"}) {
     EXPECT_THAT(glissade({command, "--help"}).standard_output, HasSubstr("--strict")) << command;

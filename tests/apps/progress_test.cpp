@@ -15,7 +15,7 @@ TEST(ProgressLine, FillsFromEmptyToFull) {
   EXPECT_EQ(progress_line("poses", 200, 200, 4), "poses [####] 100 %");
 }
 
-TEST(ProgressLine, NeverLeavesItsBar) {
+TEST(ProgressLine, IsFullBeyondTheTotal) {
   EXPECT_EQ(progress_line("poses", 900, 200, 4), "poses [####] 100 %");
 }
 

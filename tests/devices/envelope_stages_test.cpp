@@ -61,20 +61,20 @@ class PushedHand {
   std::chrono::nanoseconds now_{0};
 };
 
-TEST(PoseInPlay, HidesNoStrokeOfMoreThan5Millijoules) {
+TEST(PoseInPlay, PlayIsAtMost5MillijoulesAtMaximumForce) {
   PoseInPlay pose(1e-3, 20.0);
   pose.start_at(at_x(0.0));
   EXPECT_NEAR(pose.follow(at_x(1e-3)).way.x(), 0.75e-3, 1e-12);
 }
 
-TEST(Strokes, NoiseIsNone) {
+TEST(Strokes, NoiseCountsAsCalm) {
   PushedHand hand;
   for (int ms = 0; ms < 1000; ++ms)
     hand.move(ms % 2 == 0 ? 2e-4 : -2e-4);
   EXPECT_EQ(hand.calm(), 1.0);
 }
 
-TEST(Strokes, ToAndFroIsNotCalmAndALiftIs) {
+TEST(Strokes, OscillationIsNotCalmButALiftIs) {
   PushedHand rubbed;
   PushedHand lifted;
   for (int ms = 0; ms < 2000; ++ms) {
@@ -85,7 +85,7 @@ TEST(Strokes, ToAndFroIsNotCalmAndALiftIs) {
   EXPECT_EQ(lifted.calm(), 1.0) << "as a force that comes back does";
 }
 
-TEST(Supply, WhatIsAskedForIsGivenUpFirstAndThenForgotten) {
+TEST(Supply, RequestedEnergyIsGivenUpAndTheRestExpires) {
   Supply supply;
   GloveCommand command;
   const auto take = [&](double told) {
@@ -118,7 +118,7 @@ TEST(Fade, TakesSevenPeriodsAndReturnsIn200Milliseconds) {
   EXPECT_EQ(periods, 5) << "20 N take seven";
 }
 
-TEST(RateLimit, LowersTheForceThatCannotFallIn15Periods) {
+TEST(RateLimit, MaximumForceFallsToZeroWithin15Periods) {
   DeviceDescriptor slow = kGlove;
   slow.max_force_rate = 1000.0;
   const RateLimit rates(slow, 1e-3);
@@ -131,7 +131,7 @@ TEST(RateLimit, LowersTheForceThatCannotFallIn15Periods) {
   EXPECT_TRUE(reasons.rate_limited);
 }
 
-TEST(LinkDelay, IsTheLeastOfAWholeHalfSecondAndNoSilence) {
+TEST(LinkDelay, IsTheSmallestAgeOfHalfASecondAndIgnoresSilence) {
   LinkDelay delay;
   const auto observe = [&](int from_ms, int until_ms, milliseconds age) {
     for (int ms = from_ms; ms < until_ms; ++ms)

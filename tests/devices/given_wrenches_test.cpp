@@ -35,7 +35,7 @@ TEST(GivenWrenches, EachActsAfterTheDelayOfTheDevice) {
       << "the newest of before still acts";
 }
 
-TEST(GivenWrenches, OnesUnderWayWillStillDoTheirWork) {
+TEST(GivenWrenches, WorkToComeIsThatOfDelayedWrenches) {
   GivenWrenches given(milliseconds(40), milliseconds(1000));
   for (int ms = 0; ms <= 30; ++ms)
     given.give(milliseconds(ms), {1.0, 0.0, 0.0}, {0.0, 2.0, 0.0});
@@ -50,7 +50,7 @@ TEST(GivenWrenches, NoneActsLongerThanTheWatchdogAllows) {
   EXPECT_NEAR(work_until_100(given), 1.0 * 0.01, 1e-12);
 }
 
-TEST(GivenWrenches, TorqueWorksOnTurns) {
+TEST(GivenWrenches, TorqueDoesWorkOnRotations) {
   GivenWrenches given(milliseconds(0), milliseconds(1000));
   given.give(milliseconds(0), Vector3d::Zero(), {0.0, 0.0, 3.0});
   const auto still = [](double /*share*/) { return Vector3d(0.0, 0.0, 0.0); };
@@ -65,7 +65,7 @@ TEST(GivenWrenches, AreRememberedForADelayHoweverLong) {
   EXPECT_NEAR(work_until_100(given), 1.0 * 0.05 + 2.0 * 0.05, 1e-12);
 }
 
-TEST(GivenWrenches, OfADeviceWithManyPeriodsInAMillisecondAreAllRemembered) {
+TEST(GivenWrenches, AreAllRememberedAtAHighUpdateRate) {
   constexpr std::chrono::microseconds kPeriod(20);
   GivenWrenches given(milliseconds(50), milliseconds(50), kPeriod);
   for (std::chrono::microseconds now(-50'000); now < milliseconds(50); now += kPeriod)
@@ -73,7 +73,7 @@ TEST(GivenWrenches, OfADeviceWithManyPeriodsInAMillisecondAreAllRemembered) {
   EXPECT_NEAR(work_until_100(given), 0.1, 1e-12);
 }
 
-TEST(GivenWrenches, ALongSilenceDisplacesNoneOfThem) {
+TEST(GivenWrenches, ManyWrenchesBetweenTwoStatesDisplaceNone) {
   GivenWrenches given(milliseconds(0), milliseconds(10));
   given.give(milliseconds(0), {1.0, 0.0, 0.0}, Vector3d::Zero());
   for (int i = 1; i < 100'000; ++i)
@@ -81,7 +81,7 @@ TEST(GivenWrenches, ALongSilenceDisplacesNoneOfThem) {
   EXPECT_NEAR(work_until_100(given), 1.0 * 5.001e-3, 1e-9);
 }
 
-TEST(GivenWrenches, AClockThatGoesBackHarmsNothing) {
+TEST(GivenWrenches, WrenchGivenAtAnEarlierTimeReplacesTheLast) {
   GivenWrenches given(milliseconds(0), milliseconds(1000));
   given.give(milliseconds(50), {1.0, 0.0, 0.0}, Vector3d::Zero());
   given.give(milliseconds(20), {2.0, 0.0, 0.0}, Vector3d::Zero());

@@ -21,7 +21,7 @@ TEST(GloveJoints, HaveDistinctNames) {
   EXPECT_EQ(hands::kJointNames[18], "little_ring_abduction");
 }
 
-TEST(DeviceDescriptor, TheSimulatedGlovesIsValid) {
+TEST(DeviceDescriptor, DescriptorOfTheSimulatedGloveIsValid) {
   EXPECT_NO_THROW(validate(simulated_glove_descriptor()));
 }
 

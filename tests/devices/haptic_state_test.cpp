@@ -140,7 +140,7 @@ TEST(HapticState, EveryActivityAndGraspHasItsNumberAndName) {
     EXPECT_NE(name_of(static_cast<hands::GraspType>(number)), "none") << number;
 }
 
-TEST(HapticState, AnActivityOfANewerSimulationIsNoneAndNoError) {
+TEST(HapticState, UnknownActivityIsDecodedAsNone) {
   haptic_state_t message = message_of(some_state());
   message.hands[1].activity = hands::kHandActivities;
   message.hands[1].grasp = -1;
@@ -162,7 +162,7 @@ TEST(HapticState, EveryStateOfThePartHasItsNumberAndName) {
     EXPECT_NE(name_of(part_state_from_number(number)), "unknown") << number;
 }
 
-TEST(HapticState, AStateOfANewerSimulationIsUnknownAndNoError) {
+TEST(HapticState, UnknownPartStateIsDecodedAsUnknown) {
   for (const std::int32_t number : {-1, 0, kPartStates, std::numeric_limits<std::int32_t>::max()}) {
     haptic_state_t message = message_of(some_state());
     message.parts[2].part_state = number;
@@ -173,7 +173,7 @@ TEST(HapticState, AStateOfANewerSimulationIsUnknownAndNoError) {
   }
 }
 
-TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
+TEST(HapticState, InvalidNumbersAreRefusedAndChangeNothing) {
   HapticState received;
   haptic_state_t message = message_of(some_state());
   message.hands[1].force_W_N[1] = std::nan("");
@@ -234,7 +234,7 @@ TEST(HapticState, WhatCannotBeIsRefusedAndChangesNothing) {
   EXPECT_EQ(received.sequence, 0);
 }
 
-TEST(EnergyLeft, IsThatOfTheEnvelopeWhichActsOnTheHand) {
+TEST(EnergyLeft, IsTheGloveEnergyOnceTheGloveReports) {
   HapticHandState hand;
   hand.energy = 0.1;
   hand.glove_energy = 0.02;

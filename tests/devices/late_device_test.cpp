@@ -154,7 +154,7 @@ TEST(LateDevice, GivesNoMoreThanTheAllowanceToAHandThatBeatsTheWall) {
 }
 
 // A wall that is passive with the damping of arm and device, if nothing limits its energy.
-TEST(LateDevice, LetsAHandThatDrewBackRest) {
+TEST(LateDevice, HandComesToRestAfterDrawingBack) {
   test_support::RandomNumbers random(2);
   for_each_late_device([&](const DeviceDescriptor& device) {
     for (int world = 0; world < 20; ++world) {
@@ -177,7 +177,7 @@ TEST(LateDevice, LetsAHandThatDrewBackRest) {
   });
 }
 
-TEST(NoisyTracker, LeavesTheForceOfAHandThatPresses) {
+TEST(NoisyTracker, PressingHandKeepsItsForceForAMinute) {
   for (const double noise : {3e-6, 30e-6, 100e-6}) {
     SCOPED_TRACE(noise);
     DeviceDescriptor device = simulated_glove_descriptor();
@@ -214,7 +214,7 @@ Afterwards after_interruptions(const DeviceDescriptor& device, const Arm& arm, d
 }
 
 // The brake of the limit itself must not shake a light hand.
-TEST(LateDevice, GivesALightHandOneForceAtASlowRate) {
+TEST(LateDevice, LightHandIsSteadyAtSlowUpdateRates) {
   for (const double update_rate : {100.0, 150.0, 200.0, 1000.0}) {
     for (const double damping : {2.0, 10.0, 20.0}) {
       for (const double mass : {0.15, 0.3}) {
@@ -235,7 +235,7 @@ TEST(LateDevice, GivesALightHandOneForceAtASlowRate) {
 }
 
 // What the refill gives lifts the hand; that is no reason to end it.
-TEST(PressedHand, OfASoftArmGetsItsForceBackWithoutSteps) {
+TEST(PressedHand, ForceReturnsSmoothlyToASoftArmAfterInterruptions) {
   PressedWall wall(simulated_glove_descriptor(), {.mass = 0.3, .stiffness = 200.0, .damping = 9.0}, 1000.0);
   double before = 0.0;
   for (int ms = 0; ms < 10'000; ++ms) {

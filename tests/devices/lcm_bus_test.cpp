@@ -56,7 +56,7 @@ TEST(LcmBus, AnEndedSubscriptionIsNotCalledAnyMore) {
 }
 
 // Subscriptions end while messages for them pour in: the handler's target must never be used after its end.
-TEST(LcmBus, SubscriptionsMayEndUnderFire) {
+TEST(LcmBus, SubscriptionsMayEndWhileMessagesArrive) {
   LcmBus bus("memq://");
   std::atomic<bool> done{false};
   std::thread sender([&] {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-TEST(GloveInfo, OfADeviceThatCannotBeIsRefused) {
+TEST(GloveInfo, InvalidDescriptorIsRefused) {
   DeviceDescriptor descriptor = simulated_glove_descriptor();
   GloveInfo info;
   EXPECT_EQ(decode(encode(GloveInfo{1, 1, hands::HandSide::kRight, descriptor}), info), MessageError::kNone);
@@ -49,7 +49,7 @@ TEST_F(LcmLink, RefusesAnotherVersion) {
   EXPECT_EQ(after(encoded(message)).wrong_version, 1U);
 }
 
-TEST_F(LcmLink, RefusesNumbersThatAreNone) {
+TEST_F(LcmLink, RefusesNonFiniteNumbers) {
   const std::function<void(glove_state_t&)> spoilers[] = {[](glove_state_t& m) { m.position_WH_m[1] = kNan; },
                                                           [](glove_state_t& m) { m.orientation_WH_wxyz[0] = kNan; },
                                                           [](glove_state_t& m) { m.v_WH_m_per_s[2] = -kInfinity; },
@@ -65,7 +65,7 @@ TEST_F(LcmLink, RefusesNumbersThatAreNone) {
   EXPECT_FALSE(glove.read(state));
 }
 
-TEST_F(LcmLink, RefusesNumbersBeyondSense) {
+TEST_F(LcmLink, RefusesNumbersOutOfRange) {
   const std::function<void(glove_state_t&)> spoilers[] = {[](glove_state_t& m) { m.sequence = -1; },
                                                           [](glove_state_t& m) { m.time_ns = -1; },
                                                           [](glove_state_t& m) { m.time_ns = kLargest; },

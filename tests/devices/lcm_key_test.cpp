@@ -68,7 +68,7 @@ TEST(LcmKey, IsReadFromAFile) {
   EXPECT_EQ(key.bytes[1], 0xf0);
 }
 
-TEST(LcmKey, FilesThatAreNoneAreRefusedByName) {
+TEST(LcmKey, InvalidKeyFilesAreNamed) {
   const TemporaryFolder folder;
   const std::string digits(64, 'a');
   for (const std::string& text : {std::string(), digits.substr(1), digits + "a", digits + "\n\n",

@@ -166,7 +166,7 @@ TEST_F(BothEnds, CommandsReachTheGloveWithinItsLimits) {
   EXPECT_GT(newest.time, nanoseconds(0));
 }
 
-TEST_F(BothEnds, AFastGloveWaitsForAServerOfAThousandTicksASecond) {
+TEST_F(BothEnds, GloveAt10kHzKeepsForceOfAServerAt1kHz) {
   DeviceDescriptor fast = descriptor;
   fast.update_rate = 10'000.0;
   LcmGloveHost impatient(bus, fast, {.device = 2});
@@ -232,7 +232,7 @@ TEST_F(BothEnds, ASecondGloveOfTheSameNumberIsNotListenedTo) {
   EXPECT_TRUE(eventually([&] { return twin.statistics().other_receiver > 0; })) << "commands name the glove's session";
 }
 
-TEST_F(BothEnds, AGloveOfAnotherNumberIsAnotherGlove) {
+TEST_F(BothEnds, GlovesWithDifferentNumbersAreIndependent) {
   LcmGloveHost left(bus, descriptor, {.device = 2, .side = hands::HandSide::kLeft});
   LcmGlove left_glove(bus, descriptor, {.device = 2});
   GloveState left_state;
@@ -265,7 +265,7 @@ TEST_F(BothEnds, ASimulatedGloveYieldsToTheServer) {
   EXPECT_EQ(glove.statistics().rejected(), 0U);
 }
 
-TEST(LcmGlove, LeavesTheGloveWithoutForce) {
+TEST(LcmGlove, SendsZeroForceOnDestruction) {
   const auto bus = std::make_shared<LcmBus>("memq://");
   const DeviceDescriptor descriptor = simulated_glove_descriptor();
   std::atomic<double> last_force{-1.0};
@@ -318,7 +318,7 @@ class CommandsToAGlove : public testing::Test {
   glove_command_t good{};
 };
 
-TEST_F(CommandsToAGlove, TheGloveTellsWhatItMadeOfThem) {
+TEST_F(CommandsToAGlove, GloveReportsLimitReasonsAndCommandAge) {
   LcmGlove server(bus, simulated_glove_descriptor());
   GloveState measured;
   GloveState told;

@@ -28,7 +28,7 @@ TEST(LcmPacket, MayHaveAnEmptyMessage) {
   EXPECT_TRUE(parse_packet(bytes)->message.empty());
 }
 
-TEST(LcmPacket, OfAFragmentIsNotTaken) {
+TEST(LcmPacket, FragmentIsRefused) {
   const auto bytes = packet_bytes(std::string("LC03\0\0\0\x01", 8) + std::string("GLOVE_STATE\0abc", 15));
   EXPECT_FALSE(parse_packet(bytes).has_value());
 }

@@ -78,7 +78,7 @@ TEST_F(Udpm, ProgramsOfLcmReceiveWhatTheBusSends) {
 }
 
 // Two connections that share nothing but the network, as two processes would.
-TEST_F(Udpm, StatesAndCommandsCross) {
+TEST_F(Udpm, StatesAndCommandsArriveAtTheOtherEnd) {
   const DeviceDescriptor descriptor = simulated_glove_descriptor();
   LcmGlove glove(std::make_shared<LcmBus>(kUrl), descriptor);
   LcmGloveHost host(std::make_shared<LcmBus>(kUrl), descriptor, {.patience_periods = 200.0});

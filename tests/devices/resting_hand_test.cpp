@@ -89,7 +89,7 @@ class Alternations {
 };
 
 /// A server that wants 20 N from now on, whatever the hand does.
-TEST(RestingHand, FeelsOneForceWhateverOthersTookOrGave) {
+TEST(RestingHand, ForceIsSteadyAtAnyEnergyTakenOrGivenByOtherHands) {
   for_each_hand([](double debt, SimulatedGloveParameters parameters) {
     for (const double wearer_damping : {5.0, 35.0}) {
       parameters.wearer_damping = wearer_damping;
@@ -112,7 +112,7 @@ TEST(RestingHand, FeelsOneForceWhateverOthersTookOrGave) {
 }
 
 /// A wall of 1000 N/m, into which the hand wants to go by 60 mm.
-TEST(PressingHand, FeelsTheWallWhateverOthersTookOrGave) {
+TEST(PressingHand, WallForceReturnsAtAnyEnergyTakenOrGivenByOtherHands) {
   for_each_hand([](double debt, const SimulatedGloveParameters& parameters) {
     WornGlove hand({at_depth(milliseconds(0), -5e-3), at_depth(milliseconds(1700), -5e-3),
                     at_depth(milliseconds(2000), 0.06), at_depth(milliseconds(9000), 0.06)},

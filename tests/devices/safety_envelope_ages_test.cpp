@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 
-TEST_F(Envelope, StatesThatStopLetTheForceFadeWithinTenPeriodsAndItReturnsSoftly) {
+TEST_F(Envelope, ForceFadesWithin10PeriodsWithoutStatesAndReturnsSoftly) {
   settle(pull(15.0));
   const int periods = periods_to_zero([&] { return silent_tick(pull(15.0)); });
   EXPECT_GT(periods, 3) << "a late state is no reason";
@@ -42,7 +42,7 @@ TEST_F(Envelope, ACommandThatAnswersAnOldStateFadesAlthoughNewStatesCome) {
   EXPECT_TRUE(next().reasons().is_command_old);
 }
 
-TEST_F(Envelope, AnOldStateIsToldWithItsOwnAgeWhateverTheCommandAnswers) {
+TEST_F(Envelope, ReportedAgeOfAnOldStateIsItsOwn) {
   settle(pull(15.0));
   GloveCommand old = pull(15.0);
   old.state_time = state_.time - milliseconds(600);
@@ -89,7 +89,7 @@ TEST_F(Envelope, StatesThatArriveLateAreOldThoughTheyComeRegularly) {
   EXPECT_TRUE(is_zero(safe));
 }
 
-TEST_F(Envelope, AJumpOfTheTrackerFadesAndIsTold) {
+TEST_F(Envelope, ForceFadesWhenTheTrackerJumps) {
   settle(pull(15.0));
   state_.X_WH.translation().y() += 0.1;
   EXPECT_TRUE(tick(pull(15.0)).reasons().is_implausible);
@@ -98,7 +98,7 @@ TEST_F(Envelope, AJumpOfTheTrackerFadesAndIsTold) {
   EXPECT_EQ(after.values().f_H_W.x(), 15.0) << "the hand is there now";
 }
 
-TEST_F(Envelope, StatesThatContradictTheDescriptorAreNotBelieved) {
+TEST_F(Envelope, StatesBeyondDescriptorLimitsAreImplausible) {
   const std::vector<std::pair<const char*, void (*)(GloveState&)>> spoilers = {
       {"speed", [](GloveState& s) { s.v_WH.x() = 11.0; }},
       {"turn rate", [](GloveState& s) { s.w_WH.z() = 101.0; }},
@@ -115,14 +115,14 @@ TEST_F(Envelope, StatesThatContradictTheDescriptorAreNotBelieved) {
   }
 }
 
-TEST_F(Envelope, APoseThatContradictsItsVelocityIsNotBelieved) {
+TEST_F(Envelope, PoseContradictingItsVelocityIsImplausible) {
   settle(pull(15.0));
   state_.v_WH.x() = 8.0;  // the pose stands still
   tick(pull(15.0));
   EXPECT_TRUE(tick(pull(15.0)).reasons().is_implausible);
 }
 
-TEST_F(Envelope, AFrozenPoseIsNotBelievedWhereTheDeviceSaysSo) {
+TEST_F(Envelope, RepeatedPoseIsImplausibleBeyondDescriptorLimit) {
   DeviceDescriptor noisy = kDevice;
   noisy.frozen = milliseconds(50);
   envelope_ = SafetyEnvelope(noisy);
@@ -138,7 +138,7 @@ TEST_F(Envelope, AFrozenPoseIsNotBelievedWhereTheDeviceSaysSo) {
   EXPECT_TRUE(is_zero(safe));
 }
 
-TEST_F(Envelope, AGlovesClockThatGoesBackFadesAndIsFollowed) {
+TEST_F(Envelope, ForceFadesAndReturnsWhenTheGloveClockGoesBack) {
   settle(pull(15.0));
   now_ += milliseconds(1);
   state_.time -= std::chrono::hours(1);

@@ -26,7 +26,7 @@ TEST_F(Envelope, GivesBackNoMoreEnergyThanTheHandPutIn) {
   EXPECT_EQ(push_at(-0.1, 500).values().f_H_W.x(), 20.0) << "the hand has put in new energy";
 }
 
-TEST_F(Envelope, GivesAReducedForceBackToAHandThatRests) {
+TEST_F(Envelope, ReducedForceRecoversForARestingHand) {
   push_at(0.0, 800);
   push_at(0.1, 500);
   double last = 0.0;
@@ -42,7 +42,7 @@ TEST_F(Envelope, GivesAReducedForceBackToAHandThatRests) {
 }
 
 /// 4 mm to and fro, 5 times a second: about 20 mJ each way.
-TEST_F(Envelope, GivesNothingBackToAHandThatOscillates) {
+TEST_F(Envelope, NoEnergyRecoversForAnOscillatingHand) {
   push_at(0.0, 800);
   push_at(0.1, 500);
   double given = 0.0;
@@ -54,7 +54,7 @@ TEST_F(Envelope, GivesNothingBackToAHandThatOscillates) {
 }
 
 /// 0.35 mm to and fro, 10 times a second, as hands tremble.
-TEST_F(Envelope, GivesAReducedForceBackToAHandThatTrembles) {
+TEST_F(Envelope, ReducedForceRecoversForATremblingHand) {
   push_at(0.0, 800);
   push_at(0.1, 500);
   double last = 0.0;
@@ -64,7 +64,7 @@ TEST_F(Envelope, GivesAReducedForceBackToAHandThatTrembles) {
 }
 
 /// 2.5 mm to and fro, 5 times a second, by a force that is greater on the way out: 20 N against 10 N.
-TEST_F(Envelope, GivesNothingBackToASlowOscillationThatFeedsOnTheDevice) {
+TEST_F(Envelope, NoEnergyRecoversForASlowOscillationDrivenByTheDevice) {
   push_at(0.0, 800);
   push_at(0.1, 500);
   double given = 0.0;
@@ -80,7 +80,7 @@ TEST_F(Envelope, GivesNothingBackToASlowOscillationThatFeedsOnTheDevice) {
   EXPECT_LT(given, 0.3) << "in ten seconds";
 }
 
-TEST_F(Envelope, CountsTheWayOfStatesWithOneTimeOnceTheTimeGoesOn) {
+TEST_F(Envelope, MotionOfStatesWithEqualTimesCountsAtTheNextTime) {
   push_at(0.0, 800);
   const double before = push_at(0.0, 1).energy();
   for (int i = 0; i < 4; ++i) {  // four states of a glove whose clock counts milliseconds
@@ -93,7 +93,7 @@ TEST_F(Envelope, CountsTheWayOfStatesWithOneTimeOnceTheTimeGoesOn) {
   EXPECT_NEAR(push_at(0.0, 1).energy(), before + 20.0 * 1e-4, 1e-9);
 }
 
-TEST_F(Envelope, CountsWhatTheDeviceExertsAndNotWhatItHasJustBeenTold) {
+TEST_F(Envelope, WorkCountsTheDelayedWrenchOfTheDevice) {
   DeviceDescriptor late = kDevice;
   late.delay = milliseconds(40);
   late.damping = 200.0;  // so that it is as stiff as without a delay
@@ -106,7 +106,7 @@ TEST_F(Envelope, CountsWhatTheDeviceExertsAndNotWhatItHasJustBeenTold) {
   EXPECT_NEAR(push_at(-0.1, 30).energy(), 0.1 + 20.0 * 3e-3, 2e-3) << "20 N on a way of 3 mm";
 }
 
-TEST_F(Envelope, CountsACommandNoLongerThanADeviceExertsItWithoutAnother) {
+TEST_F(Envelope, WorkCountsACommandUntilTheWatchdogEndsIt) {
   push_at(0.0, 800);
   const double before = push_at(0.0, 1).energy();
   now_ += milliseconds(99);
@@ -118,7 +118,7 @@ TEST_F(Envelope, CountsACommandNoLongerThanADeviceExertsItWithoutAnother) {
 }
 
 /// A tracker that repeats its last pose for 40 ms while the hand goes on.
-TEST_F(Envelope, CountsTheWayOfAHandWhosePoseStoodStillOnceItIsPlausibleAgain) {
+TEST_F(Envelope, JumpAfterARepeatedPoseCountsAsMotion) {
   push_at(0.0, 800);
   push_at(-0.1, 200);
   const double before = push_at(0.0, 40).energy();
@@ -137,7 +137,7 @@ TEST_F(Envelope, AJumpTakesTheForceForNoLongerThanTwoSeconds) {
 }
 
 /// Once in 0.8 s, outwards at 1.5 m/s for 60 ms, while the descriptor allows 1 m/s; and back without a force.
-TEST_F(Envelope, CountsTheWayOfAHandThatIsFasterThanTheDescriptorTells) {
+TEST_F(Envelope, MotionBeyondTheMaximumSpeedCounts) {
   DeviceDescriptor slow = kDevice;
   slow.max_speed = 1.0;
   envelope_ = SafetyEnvelope(slow);
@@ -153,7 +153,7 @@ TEST_F(Envelope, CountsTheWayOfAHandThatIsFasterThanTheDescriptorTells) {
   EXPECT_LE(given, 2.0 * 0.6 + 0.1 + 1.0 + 0.3 * 30.0);
 }
 
-TEST_F(Envelope, JumpsThatRepeatAreNotForgiven) {
+TEST_F(Envelope, DebtOfRepeatedJumpsIsNotForgotten) {
   push_at(0.0, 1000);
   double given = 0.0;
   for (int round = 0; round < 20; ++round) {  // in 14 seconds
@@ -173,7 +173,7 @@ TEST_F(Envelope, AJumpAgainstTheForceBringsNoEnergy) {
   EXPECT_LE(push_at(0.0, 1).energy(), before);
 }
 
-TEST_F(Envelope, CountsNoWayThatNoHandCanMake) {
+TEST_F(Envelope, ImpossibleJumpDoesNotCountAsMotion) {
   push_at(0.0, 800);
   push_at(-0.1, 200);
   const double before = push_at(0.0, 40).energy();
@@ -183,7 +183,7 @@ TEST_F(Envelope, CountsNoWayThatNoHandCanMake) {
 }
 
 /// The device exerts half of each period what it was told in the one before.
-TEST_F(Envelope, AClockOfTheGloveThatIsSetFeedsNothing) {
+TEST_F(Envelope, StepOfTheGloveClockAddsNoEnergy) {
   DeviceDescriptor late = kDevice;
   late.delay = std::chrono::microseconds(500);
   envelope_ = SafetyEnvelope(late);
@@ -208,7 +208,7 @@ TEST_F(Envelope, ForgetsTheEnergyOfAContactThatHasEnded) {
   EXPECT_EQ(safe.energy(), 0.1);
 }
 
-TEST_F(Envelope, GivesWhatBodiesThatMoveSupply) {
+TEST_F(Envelope, SupplyAddsEnergyUpToMaximumPower) {
   double supply = 3.0;  // whatever the sender has counted before
   EXPECT_EQ(push_at(0.0, 800, supply).energy(), 0.1);
   for (int i = 0; i < 2000; ++i) {
@@ -235,7 +235,7 @@ TEST_F(Envelope, KeepsNoSupplyWhileThereIsNoForce) {
   EXPECT_EQ(push_at(0.0, 1000, supply).energy(), 0.1);
 }
 
-TEST_F(Envelope, GivesUpForOthersWhatItDoesNotNeed) {
+TEST_F(Envelope, AvailableEnergyIsGivenUpOnRequestOfOtherHands) {
   push_at(0.0, 800, 1.0);
   const double put_in = push_at(-0.1, 100, 1.0).energy() - 0.1;
   EXPECT_NEAR(put_in, 0.2, 0.01);
@@ -251,7 +251,7 @@ TEST_F(Envelope, GivesUpForOthersWhatItDoesNotNeed) {
   EXPECT_GT(push_at(-0.1, 100, -19.9).energy(), 0.25) << "after some seconds nobody asks for it any more";
 }
 
-TEST_F(Envelope, CountsWhatPushesInTheShareThatIsExerted) {
+TEST_F(Envelope, SupplyCountsByTheExertedShareOfForce) {
   push_at(0.0, 800);
   DeviceDescriptor weak = kDevice;
   weak.max_force = 5.0;
@@ -292,7 +292,7 @@ TEST_F(Envelope, ASenderOfAnotherSessionCountsAnew) {
 }
 
 /// Interruptions of 12 ms, every 0.6 s, with a hand that is lifted by 1 mm after each of them: 20 mJ.
-TEST_F(Envelope, ManyInterruptionsFeedNothing) {
+TEST_F(Envelope, EnergyOfManyInterruptionsStaysWithinTheAllowance) {
   push_at(0.0, 800);
   double given = 0.0;
   for (int round = 0; round < 100; ++round) {

@@ -126,7 +126,7 @@ TEST_F(Envelope, LimitsTheMeanForce) {
 }
 
 // `passivity_test` has the reason: what cannot fall soon would go on giving energy.
-TEST(SafetyEnvelope, ADeviceWhoseForceFallsSlowlyGetsLessOfIt) {
+TEST(SafetyEnvelope, LowMaximumForceRateLowersTheMaximumForce) {
   DeviceDescriptor device = kDevice;
   device.max_force_rate = 500.0;
   EXPECT_DOUBLE_EQ(SafetyEnvelope(device).descriptor().max_force, 500.0 * 15.0 / device.update_rate);

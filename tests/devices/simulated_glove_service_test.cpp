@@ -88,7 +88,7 @@ TEST_F(SimulatedGloveServiceTest, WaitsForTheFirstCommandAndThenRunsByTime) {
 }
 
 // What a wearer sees is as old as the contacts, and since then it has become older.
-TEST_F(SimulatedGloveServiceTest, TheWearerSeesHowOldThePictureIs) {
+TEST_F(SimulatedGloveServiceTest, WearersViewHasTheAgeOfTheContacts) {
   WearersView view(bus);
   EXPECT_EQ(view.age(), std::nullopt);
   bus->publish(kHapticStateChannel, encode(HapticState{.contact_set_age = milliseconds(300)}));

@@ -216,7 +216,7 @@ TEST(SimulatedGlove, IsDeterministicAndDividesLongSteps) {
   }
 }
 
-TEST(SimulatedGlove, DoesNotGoOnForLongUnderACommandThatIsLate) {
+TEST(SimulatedGlove, LongStepExertsItsCommandOnlyBriefly) {
   GloveCommand command;
   command.f_H_W = Vector3d(10, 0, 0);
   command.joint_torques.fill(-0.3);

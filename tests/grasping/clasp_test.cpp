@@ -144,7 +144,7 @@ TEST(Clasp, GoesOnInTheNextCallsWhereTheBudgetOfWorkIsUsedUp) {
   EXPECT_GE(std::count(clasp.touching().begin(), clasp.touching().end(), 1), 4);
 }
 
-TEST(Clasp, LeavesNoFlexValueThatAloneCouldComeNearer) {
+TEST(Clasp, NoFlexValueAloneCanComeNearerToItsTarget) {
   ClaspedHand hand = hand_at_ball();
   hand.clasp.advance(open_hand());
   close(hand.clasp, 1.2, 300);
@@ -197,7 +197,7 @@ TEST(Clasp, PassesThroughNoSheetHoweverFastTheHand) {
   EXPECT_GT(hand.clasp.posture().X_WR.translation().z(), -0.08) << "the target itself is free";
 }
 
-TEST(Clasp, WaitsWhileAHandThatStartsInsideIsNotFree) {
+TEST(Clasp, WaitsWhileTheStartIsInsideAnObject) {
   ClaspedHand hand(geometry::make_sphere(0.035, 2000), at(0.095, 0.0, 0.0));
   hand.clasp.advance(open_hand());
   EXPECT_EQ(hand.clasp.state(), ClaspState::kWaiting);

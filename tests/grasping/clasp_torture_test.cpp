@@ -239,7 +239,7 @@ TEST(ClaspTortureOfTremblingTargets, NoFlexValueWaitsForEver) {
   }
 }
 
-TEST(ClaspTortureOfFiles, IsReported) {
+TEST(ClaspTortureOfFiles, ResultsArePrinted) {
   const char* const files = std::getenv("GLISSADE_GRASP_MESHES");
   if (files == nullptr) GTEST_SKIP() << "GLISSADE_GRASP_MESHES names no mesh files";
   std::istringstream list(files);

@@ -163,7 +163,7 @@ std::string follower_name(const testing::TestParamInfo<Follower (*)()>& info) {
 
 INSTANTIATE_TEST_SUITE_P(Hands, DoorHandle, testing::Values(adroit_follower, human_follower), follower_name);
 
-TEST_P(DoorHandle, IsGraspedByAHandMadeInCodeAndNotBeforeItTouches) {
+TEST_P(DoorHandle, IsGraspedInASyntheticRecordingNotBeforeContact) {
   const Vector3d p_WDoor(-0.2, 0.3, 0.3);
   const test_support::TemporaryFolder folder;
   test_support::write_adroit_recording(folder.path("made.csv"), made_recording(p_WDoor));

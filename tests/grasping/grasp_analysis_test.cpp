@@ -45,7 +45,7 @@ Grasp grasp_of(const std::vector<LinkContact>& contacts) {
   return analysis.update(contacts, kLong_ms);
 }
 
-TEST(GraspAnalysis, NothingThatTouchesIsNoGrasp) {
+TEST(GraspAnalysis, NoContactIsNoGrasp) {
   EXPECT_EQ(grasp_of({}).type, GraspType::kNone);
   EXPECT_EQ(reason_of(grasp_of({})), "none: nothing touches");
 }
@@ -57,7 +57,7 @@ TEST(GraspAnalysis, OneSegmentOrThePalmAlonePushes) {
   EXPECT_EQ(reason_of(grasp_of({touch(kPalm)})), "push: the palm touches");
 }
 
-TEST(GraspAnalysis, TheHapticLoopTellsTheReasonInNumbers) {
+TEST(GraspAnalysis, TouchingSegmentsAreEncodedAsBits) {
   const Grasp grasp = grasp_of({touch(kPalm), touch(middle(Finger::kIndex)), touch(outer(Finger::kLittle))});
   hands::VisibleHand hand;
   hand.grasp = hands::GraspType::kPower;
@@ -192,7 +192,7 @@ TEST(GraspAnalysis, AFingertipOnTheTableGraspsAPartThatItTouchesToo) {
   EXPECT_EQ(analysis.update(contacts, 1.0).object, kTable) << "what left the part may be at the table still";
 }
 
-TEST(GraspAnalysis, AGraspThatHoldsAPartComesBeforeAFirmerOneOfWhatIsFixed) {
+TEST(GraspAnalysis, GraspOfAPartPrecedesAFirmerGraspOfAFixedObject) {
   std::vector<LinkContact> contacts{
       touch(kPalm, Vector3d::UnitX(), 0), touch(middle(Finger::kRing), Vector3d::UnitX(), 0),
       touch(outer(Finger::kThumb), -Vector3d::UnitX(), 1), touch(outer(Finger::kIndex), Vector3d::UnitX(), 1)};

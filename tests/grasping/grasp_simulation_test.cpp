@@ -45,7 +45,7 @@ TEST(GraspSimulation, TakesHoldOfThePartThatTheHandClosesRound) {
   EXPECT_EQ(scene.simulation.held_part(0), 0U);
 }
 
-TEST(GraspSimulation, PullsAtNothingWhenItTakesHold) {
+TEST(GraspSimulation, PartDoesNotMoveWhenGrasped) {
   HandAndBall scene;
   int ms = 0;
   for (; ms < 400 && !scene.simulation.held_part(0); ++ms)
@@ -157,7 +157,7 @@ TEST(GraspSimulation, PushesALoosePartAlongUntilTheWallStopsIt) {
   EXPECT_NEAR(scene.X_WV().translation().x(), 0.24 - kBallRadius_m, 0.5e-3) << "a facet of the ball lies at the wall";
 }
 
-TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
+TEST(GraspSimulation, ForceFadesWhileTheHandIsLost) {
   HandAndBall scene;
   close_round_ball(scene);
   const Posture closed = bent_hand(1.2);
@@ -183,7 +183,7 @@ TEST(GraspSimulation, PressesOnNothingWhileTheHandIsLost) {
   EXPECT_EQ(scene.simulation.activity(0), HandActivity::kHolding);
 }
 
-TEST(GraspSimulation, PushesAPartThatRepeatsMotionsAndNeverBack) {
+TEST(GraspSimulation, IncrementalPartIsPushedButNeverPulledBack) {
   HandAndBall scene(1, 0.25, contact::Metaphor::kIncremental);
   const Posture hand = moved(open_hand(), -0.15, 0.0, -0.056);
   scene.advance(hand);
@@ -197,7 +197,7 @@ TEST(GraspSimulation, PushesAPartThatRepeatsMotionsAndNeverBack) {
   }
 }
 
-TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
+TEST(GraspSimulation, IncrementalPartStaysWhenItsHandIsLost) {
   HandAndBall scene(1, 0.25, contact::Metaphor::kIncremental);
   close_round_ball(scene);
   for (int ms = 1; ms <= 300; ++ms)
@@ -209,7 +209,7 @@ TEST(GraspSimulation, LeavesAPartThatRepeatsMotionsWhereItsHandIsLost) {
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6);
 }
 
-TEST(GraspSimulation, IsSlidingContactToTheBitWithoutHands) {
+TEST(GraspSimulation, IsBitIdenticalToMultiPartSlidingWithoutHands) {
   const auto ball = std::make_shared<const contact::SlidingPart>(
       std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(kBallRadius_m, 500)));
   const auto wall = std::make_shared<const contact::ContactBody>(
@@ -247,7 +247,7 @@ void lead(HandAndBall& scene, const std::optional<Posture>& posture, std::option
 }
 
 // A hand that is only carried on from where it was lost would meet the wall.
-TEST(GraspSimulation, AHandThatIsLostAndLetsGoBeginsAnewWhereItIsFreeThoughOthersDecide) {
+TEST(GraspSimulation, HandThatLetsGoWhileLostResumesAtAFreeTarget) {
   HandAndBall scene;
   const Posture here = moved(open_hand(), 0.0, 0.0, 0.1);
   for (int ms = 0; ms < 3; ++ms)
@@ -273,7 +273,7 @@ TEST(GraspSimulation, DecidesNothingNewAboutAHandThatIsLost) {
 
 // A decider may follow a decision late: after the hand is lost, or after the simulation has withdrawn the decision. The
 // hand then begins where its palm is away from the ball, with fingers that would be inside if they held it.
-TEST(GraspSimulation, AHandThatIsLostTakesNoHoldThoughOthersDecideSo) {
+TEST(GraspSimulation, LostHandIgnoresAnExternalGraspDecision) {
   for (const bool follows_late : {false, true}) {
     HandAndBall scene;
     const HoldDecision& decision = scene.simulation.decision(0);
@@ -342,7 +342,7 @@ TEST(GraspSimulation, AHandThatTheCartCarriesLetsGoAndBeginsWhereItIsFree) {
   EXPECT_LT((scene.X_WV().translation() - X_WV.translation()).norm(), 1e-6) << "the ball stays";
 }
 
-TEST(GraspSimulation, AHandThatTheCartCarriesIsInNobodysWay) {
+TEST(GraspSimulation, HandWaitingAfterCartMotionIsNoObstacle) {
   HandAndBall scene(2, 0.6);
   close_round_ball(scene);
   ASSERT_EQ(scene.simulation.held_part(0), 0U);

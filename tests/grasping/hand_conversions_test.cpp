@@ -74,7 +74,7 @@ TEST(OpenXr, TakesTheJointsOfAHandOfOtherSize) {
     EXPECT_NEAR(back.values[i], pose.values[i], 1e-6) << hands::kJointNames[i];
 }
 
-TEST(OpenXr, PutsABentWristIntoTheRoot) {
+TEST(OpenXr, WristFlexionBecomesRootRotation) {
   const HandModel hand = make_hand();
   HandPose pose;
   pose.values[value_named("wrist_flexion")] = 0.5;
@@ -84,7 +84,7 @@ TEST(OpenXr, PutsABentWristIntoTheRoot) {
 }
 
 // XR_EXT_hand_tracking: -z along the bone towards the tip, y out of the back of the hand, x to the right.
-TEST(OpenXr, HasItsAxesAndItsJointsInARow) {
+TEST(OpenXr, JointAxesFollowTheBonesAsInXrExtHandTracking) {
   for (const HandSide side : {HandSide::kLeft, HandSide::kRight}) {
     const HandModel hand = make_hand({.side = side});
     const OpenXrJoints joints = to_openxr(hand, {});
@@ -107,7 +107,7 @@ TEST(OpenXr, HasItsAxesAndItsJointsInARow) {
 }
 
 // A thumb whose nail a runtime sees elsewhere: the direction of the bone matters more.
-TEST(OpenXr, FitsTheDirectionOfTheThumbRatherThanItsNail) {
+TEST(OpenXr, FitPrefersThumbDirectionToThumbRoll) {
   const HandModel hand = make_hand();
   HandPose pose;
   pose.values[value_named("thumb_roll")] = 0.5;

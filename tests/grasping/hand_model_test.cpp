@@ -71,7 +71,7 @@ double angle_between(const Vector3d& a, const Vector3d& b) {
 
 const std::array<std::string, 4> kFingers{"index", "middle", "ring", "little"};
 
-TEST(HandModel, HasTheValuesOfAGlove) {
+TEST(HandModel, FlexValuesAreTheGloveJoints) {
   const HandModel hand = make_hand();
   ASSERT_EQ(hand.chain.values().size(), hands::kJointNames.size());
   for (std::size_t i = 0; i < hands::kJointNames.size(); ++i) {
@@ -148,7 +148,7 @@ TEST(HandModel, ClosesWithEveryFlexion) {
     }
 }
 
-TEST(HandModel, GoesAsFarAsTheSimulatedGlove) {
+TEST(HandModel, LimitsEqualThoseOfTheSimulatedGlove) {
   const HandModel hand = make_hand();
   const devices::DeviceDescriptor glove = devices::simulated_glove_descriptor();
   for (std::size_t i = 0; i < hand.chain.values().size(); ++i) {

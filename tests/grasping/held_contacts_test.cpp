@@ -65,7 +65,7 @@ class HeldPart : public ::testing::Test {
   HeldContacts held_{hand_with_a_finger(), kPalmOfFinger, kFlexions};
 };
 
-TEST_F(HeldPart, IsTouchedOnByALinkThatHasHardlyLeftIt) {
+TEST_F(HeldPart, ContactContinuesAcrossA1MillimetreGap) {
   EXPECT_TRUE(touching_at(0.0, 1e-3).empty()) << "it has never touched";
   touching_at(0.0, -1e-3, touch());
   const std::vector<LinkContact> contacts = touching_at(0.0, 1e-3);
@@ -75,7 +75,7 @@ TEST_F(HeldPart, IsTouchedOnByALinkThatHasHardlyLeftIt) {
   EXPECT_TRUE(held_.left().empty());
 }
 
-TEST_F(HeldPart, IsPlainlyLeftAtAFewMillimetres) {
+TEST_F(HeldPart, LinkHasLeftAt5Millimetres) {
   touching_at(0.0, -1e-3, touch());
   EXPECT_TRUE(touching_at(0.0, 3e-3).empty()) << "between both, the contact of before only fades";
   EXPECT_TRUE(held_.left().empty());
@@ -84,20 +84,20 @@ TEST_F(HeldPart, IsPlainlyLeftAtAFewMillimetres) {
   EXPECT_TRUE(touching_at(0.0, 0.0).empty()) << "it must touch anew";
 }
 
-TEST_F(HeldPart, IsLeftSidewaysToo) {
+TEST_F(HeldPart, LinkHasLeftAfterSidewaysMotion) {
   touching_at(0.0, -1e-3, touch());
   touching_at(20e-3, 0.0);
   EXPECT_EQ(held_.left().size(), 1U);
 }
 
 // A glove without torques lets its fingers go deep into the part, and there anywhere.
-TEST_F(HeldPart, IsNotLeftByATargetDeepWithinIt) {
+TEST_F(HeldPart, TargetDeepInsideHasNotLeft) {
   touching_at(0.0, -1e-3, touch());
   EXPECT_EQ(touching_at(20e-3, -10e-3).size(), 1U);
   EXPECT_TRUE(held_.left().empty());
 }
 
-TEST_F(HeldPart, IsNotLeftByAFingerThatClosesThroughIt) {
+TEST_F(HeldPart, FingerClosingThroughItHasNotLeft) {
   touching_at(0.0, 0.0, touch());
   EXPECT_EQ(touching_at(0.0, 0.0, {}, 3.2).size(), 1U) << "the tip is a decimetre behind and 3 mm above the contact";
   EXPECT_TRUE(held_.left().empty());
@@ -106,7 +106,7 @@ TEST_F(HeldPart, IsNotLeftByAFingerThatClosesThroughIt) {
 }
 
 // The tip touches from below, and where the finger bends at its root, it goes down from there.
-TEST_F(HeldPart, IsNotLeftByAHookThatCloses) {
+TEST_F(HeldPart, ClosingHookedFingerHasNotLeft) {
   std::vector<LinkContact> below = touch();
   below.front().contact.n_W = -Vector3d::UnitZ();
   touching_at(0.0, 0.0, below);
@@ -115,13 +115,13 @@ TEST_F(HeldPart, IsNotLeftByAHookThatCloses) {
   EXPECT_EQ(held_.left().size(), 1U);
 }
 
-TEST_F(HeldPart, IsRememberedFromTheMomentOfTaking) {
+TEST_F(HeldPart, ContactsCountFromTheStartOfTheGrasp) {
   held_.begin(touch(), kHeldBody, at(0.0), {at(-1.0), {0.0, 0.0, 0.0, 0.0}});
   EXPECT_EQ(touching_at(0.0, 0.0, {}, 3.2).size(), 1U);
 }
 
 // What the wrist does, palm and part do together.
-TEST_F(HeldPart, IsNotLeftByTheWrist) {
+TEST_F(HeldPart, WristMotionDoesNotEndContacts) {
   touching_at(0.0, -1e-3, touch());
   const Posture bent{at(-1.0) * test_support::turn(0.5, Vector3d::UnitY()), {-0.5, 0.0, 0.0, 0.0}};
   held_.update({}, kHeldBody, at(0.0), bent, bent);

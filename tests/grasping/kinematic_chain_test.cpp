@@ -85,7 +85,7 @@ TEST(KinematicChain, AgreesWithTheProductOfExponentials) {
   }
 }
 
-TEST(KinematicChain, RatesOfAPointAreItsDifferences) {
+TEST(KinematicChain, RatesEqualFiniteDifferences) {
   constexpr double kStep = 1e-6;
   RandomNumbers random(kChainSeed);
   for (int run = 0; run < 50; ++run) {

@@ -83,7 +83,7 @@ struct LooseObjects {
   int as_labelled = 0;
 };
 
-TEST(LabelledGrasps, OfLoosePartsTakeHoldWheneverTheLabelHolds) {
+TEST(LabelledGrasps, LoosePartIsHeldExactlyIfTheLabelHolds) {
   std::map<std::string, LooseObjects> table;
   int count = 0;
   int as_labelled = 0;
@@ -240,7 +240,7 @@ int noise_ms() {
 
 class NoisyGrasp : public testing::TestWithParam<LabelledGrasp> {};
 
-TEST_P(NoisyGrasp, OfALoosePartNeitherChangesNorLetsGo) {
+TEST_P(NoisyGrasp, LoosePartStaysHeldWithTypeAndForm) {
   constexpr std::uint64_t kSeed = 5;
   const LabelledGrasp& labelled = GetParam();
   LooseGraspTrial trial(labelled);

@@ -38,7 +38,7 @@ class PushedBall : public ::testing::Test {
   Push push_;
 };
 
-TEST_F(PushedBall, GoesWhereOneSegmentPressesItAndResists) {
+TEST_F(PushedBall, MovesWithTheSegmentLessTheResistance) {
   press(Vector3d::UnitX(), GraspingHand::kResistance_m + 2e-3);
   EXPECT_LT(displacement().v.x(), -1.5e-3);
   EXPECT_GE(displacement().v.x(), -2e-3);
@@ -78,7 +78,7 @@ TEST_F(PushedBall, GoesNoFartherInALateCallThanInFiveMilliseconds) {
   EXPECT_NEAR(displacement(60.0).v.x(), -Push::kFastest * speed_m_per_ms * 5.0, 1e-6);
 }
 
-TEST_F(PushedBall, IsNotPushedYetByWhatTheSegmentHasMovedInALateCall) {
+TEST_F(PushedBall, SegmentMotionOfALateCallDoesNotPushYet) {
   speed_m_per_ms = 0.3e-3;
   press(Vector3d::UnitX(), GraspingHand::kResistance_m + 1e-3);
   EXPECT_LT(displacement(1.0).v.x(), -0.4e-3);

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kDegreeOfNoise = std::numbers::pi / 180.0;
 
-TEST(SteadyFingers, TakeNoiseAway) {
+TEST(SteadyFingers, AttenuateNoise) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0.0, 2.0 * kDegreeOfNoise);
   SteadyFingers fingers;
@@ -26,7 +26,7 @@ TEST(SteadyFingers, TakeNoiseAway) {
   EXPECT_LT(std::sqrt(squares / kCount), 0.5 * kDegreeOfNoise);
 }
 
-TEST(SteadyFingers, ArriveInTheEnd) {
+TEST(SteadyFingers, ConvergeToTheTarget) {
   SteadyFingers fingers;
   fingers.begin(std::vector{0.0});
   for (int ms = 0; ms < 200; ++ms)

@@ -65,7 +65,7 @@ std::size_t number_of(const KinematicChain& chain, const std::string& link) {
   return static_cast<std::size_t>(at - chain.links().begin());
 }
 
-TEST(UrdfChain, IsAThreeFingerGripperThatClosesWithOneValue) {
+TEST(UrdfChain, MimicJointsFollowOneFlexValue) {
   const TemporaryFolder folder;
   const KinematicChain chain = read_urdf(folder.write("gripper.urdf", gripper())).chain;
   ASSERT_EQ(chain.values().size(), 1U);

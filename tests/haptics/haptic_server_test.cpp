@@ -183,7 +183,7 @@ TEST_F(Server, TheForceFadesWhenItIsStopped) {
   expect_faded(*device_);
 }
 
-TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
+TEST_F(Server, EmergencyStopRemovesTheForceAndIsReported) {
   std::atomic<bool> pushes{false};
   std::atomic<bool> is_told{false};
   HapticServer server({{device_.get()}}, *sliding_, {.sink = [&](const devices::HapticState& sample) {
@@ -199,7 +199,7 @@ TEST_F(Server, AnEmergencyStopTakesTheForceAwayAndIsTold) {
   expect_faded(*device_);
 }
 
-TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
+TEST_F(Server, FailingSinkRemovesTheForceAndIsReported) {
   HapticServer server({{device_.get()}}, *sliding_, {.ticks = 2000, .sink = [](const devices::HapticState& sample) {
                                                        if (sample.hands[0].force_W.norm() > 0.5)
                                                          throw std::runtime_error("the disk is full");
@@ -211,7 +211,7 @@ TEST_F(Server, ASinkThatFailsTakesTheForceAwayAndIsTold) {
   expect_faded(*device_);
 }
 
-TEST_F(Server, LetsGoAndTakesHoldWhenItIsTold) {
+TEST_F(Server, GraspAndReleaseCallsTakeEffect) {
   std::atomic<std::int32_t> part{-2};
   HapticServer server({{device_.get()}}, *sliding_,
                       {.sink = [&](const devices::HapticState& sample) { part = sample.hands[0].part; }});
@@ -253,7 +253,7 @@ TEST_F(Server, CountsLateTicksWhileItRuns) {
   EXPECT_EQ(server.late_ticks(), static_cast<std::int64_t>(server.statistics().haptic.late_ticks));
 }
 
-TEST_F(Server, CountsThePagesThatTheHapticThreadWaitsFor) {
+TEST_F(Server, CountsPageFaultsOfTheHapticThread) {
   constexpr std::size_t kPages = 200;
   const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
   void* const memory =

@@ -16,7 +16,7 @@ using std::chrono::milliseconds;
 constexpr milliseconds kStart{1000};  // the clock shows anything, and the thread has computed before
 constexpr milliseconds kComputed{70};
 
-TEST(TimeShare, IsUsedUpByComputingLongerInAWindowOfTenMilliseconds) {
+TEST(TimeShare, IsExceededByComputingBeyondItIn10Milliseconds) {
   TimeShare share(0.4);
   EXPECT_TRUE(share.is_within(kStart, kComputed));
   EXPECT_TRUE(share.is_within(kStart + milliseconds(4), kComputed + milliseconds(4)));

@@ -55,7 +55,7 @@ TEST(LatencyHistogram, QuantilesBoundTheExactOnesFromAbove) {
   EXPECT_EQ(histogram.quantile(1.0), histogram.max());
 }
 
-TEST(LatencyHistogram, PowersOfTwoFallOnTheirOwnSideOfABucket) {
+TEST(LatencyHistogram, PowersOfTwoBeginABucket) {
   for (int bit = 0; bit < 40; ++bit) {
     LatencyHistogram histogram;
     const std::int64_t power = std::int64_t{1} << bit;

@@ -48,7 +48,7 @@ TEST(LockedMemory, IsRefusedWhereLaterAllocationsWouldFail) {
   EXPECT_EQ(code, 0);
 }
 
-TEST(LockedMemory, IsThereBeforeItIsTouchedAndThreadsKnow) {
+TEST(LockedMemory, HasNoPageFaultsAndIsReportedByThreads) {
   if (test_support::kSanitized) GTEST_SKIP() << "sanitizers ignore mlockall";
   if (!may_lock_memory()) GTEST_SKIP() << "no right to lock memory";
   const int code = exit_code_of_child([] {
@@ -70,7 +70,7 @@ TEST(LockedMemory, IsThereBeforeItIsTouchedAndThreadsKnow) {
 }
 
 /// Without locked memory, too.
-TEST(PeriodicThread, HasAStackThatWasTouched) {
+TEST(PeriodicThread, StackIsPrefaulted) {
   if (test_support::kSanitized) GTEST_SKIP() << "a sanitizer touches memory of its own";
   long faults = -1;
   SteadyClock clock;

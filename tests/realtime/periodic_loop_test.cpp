@@ -110,7 +110,7 @@ class SpinningClock final : public Clock {
   nanoseconds spun_{0};
 };
 
-TEST(RunPeriodic, SpinsUntilTheDeadlineAfterAWakeUpThatCameLate) {
+TEST(RunPeriodic, SpinningAbsorbsWakeUpLatenessUpToItsTime) {
   const auto stop_after_ten = [](const PeriodicTick& tick) { return tick.index < 9; };
   for (const auto& [lateness, left] : {std::pair(60, 0), std::pair(100, 0), std::pair(150, 50)}) {
     SpinningClock clock{microseconds(lateness)};
@@ -141,7 +141,7 @@ TEST(RunPeriodic, RefusesToSpinForMoreThanHalfOfThePeriod) {
   }
 }
 
-TEST(RunPeriodic, SlicesAddUp) {
+TEST(RunPeriodic, StatisticsOfConsecutiveRunsAddUp) {
   SimulatedClock clock;
   PeriodicStatistics statistics;
   run_empty_ticks(clock, 3, statistics);
@@ -181,7 +181,7 @@ TEST(PeriodicThread, SpinsIfItIsTold) {
   EXPECT_EQ(clock.spun(), 10 * microseconds(40));
 }
 
-TEST(PeriodicThread, HasTheNameThatItWasGivenAsFarAsTheSystemKeepsIt) {
+TEST(PeriodicThread, NameIsTruncatedTo15Characters) {
   SteadyClock clock;
   std::array<char, 16> name{};
   PeriodicThread thread(clock, {.name = "a name that is too long"}, [&name](const PeriodicTick&) {

@@ -62,7 +62,7 @@ TEST(SpscRing, RefusesCapacityZero) {
 }
 
 // Everything that was pushed arrives once, in order and whole, or is counted as dropped.
-TEST(SpscRing, LosesNothingUncountedBetweenTwoThreads) {
+TEST(SpscRing, EveryValueArrivesOrIsCountedAsDropped) {
   constexpr std::uint64_t kValues = 100000;
   struct Pair {
     std::uint64_t first;

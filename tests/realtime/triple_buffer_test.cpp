@@ -33,7 +33,7 @@ TEST(TripleBuffer, GivesTheNewestAndForgetsTheRest) {
 }
 
 // The reader never sees a value half written, never an older one after a newer one, and in the end the last.
-TEST(TripleBuffer, HandsWholeRisingValuesBetweenTwoThreads) {
+TEST(TripleBuffer, ReaderSeesWholeValuesInRisingOrder) {
   constexpr std::uint64_t kValues = 100000;
   using Block = std::array<std::uint64_t, 24>;
   TripleBuffer<Block> buffer(Block{});

@@ -91,7 +91,7 @@ constexpr const char* kThings =
     "{position_m: [0, 0.25, 0.05]}}\n"
     "  - {name: far, shape: {type: box}, pose: {position_m: [3, 0, 0]}}\n";
 
-TEST(LeastClearance, IsThatOfAFullSearchAtEveryPose) {
+TEST(LeastClearance, EqualsAFullSearchAtEveryPose) {
   const SceneBodies scene = scene_of(kThings);
   for (std::uint64_t seed = 1; seed <= 12; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -223,7 +223,7 @@ TEST(LeastClearance, LaterContactsMakeEarlierDistancesNeedless) {
   EXPECT_LT(work.searches, 150) << "of 300 poses";
 }
 
-TEST(LeastClearance, OfASimulationIsThatOfEachPartAmongTheOthers) {
+TEST(LeastClearance, EachPartOfASimulationIsMeasuredToTheOthers) {
   const Scene scene = parse_scene(
       "objects:\n"
       "  - {name: left, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"

@@ -107,7 +107,7 @@ TEST(SceneReader, AMeshThatIsNotWeldedIsAsTheFileHasIt) {
   expect_bad_input([] { parse_object("    welded: false\n"); }, {"scene.yaml:4: welded: is for meshes"});
 }
 
-TEST(SceneReader, ReadsAllowances) {
+TEST(SceneReader, ReadsMarginCompliancePointAndGivingWay) {
   const Scene scene = parse_object(
       "    margin_m: 2.0e-6\n"
       "    compliance_point_m: [0, 0.01, -0.02]\n"
@@ -235,7 +235,7 @@ TEST(SceneReader, ValuesOfTheWrongTypeNameKeyAndValue) {
   expect_bad_input([] { parse_object("script: [a, b]\n"); }, {"scene.yaml:4:", "script", "a list"});
 }
 
-TEST(SceneReader, AScaleIsForMeshesAndMustLeaveOneThatCanBeQueried) {
+TEST(SceneReader, ScaleIsForMeshesOnlyAndMustBeValid) {
   const TemporaryFolder folder;
   folder.write("part.obj", kTetrahedronObj);
   const auto read_scaled = [&](const std::string& scale) {
@@ -256,7 +256,7 @@ TEST(SceneReader, ACompliancePointTooFarFromItsObjectNamesTheKeyAndTheLimit) {
   EXPECT_TRUE(parse_text(ball + "    compliance_point_m: [0, 0, 0.26]\n").objects[0].compliance_point_B);
 }
 
-TEST(SceneReader, QuaternionsFollowTheRuleForPoses) {
+TEST(SceneReader, NonUnitQuaternionsAreRefused) {
   expect_bad_input([] { parse_object("    pose: {orientation_wxyz: [0, 0, 0, 0]}\n"); },
                    {"scene.yaml:4:", "orientation_wxyz", "is zero"});
   expect_bad_input([] { parse_object("goal:\n  orientation_wxyz: [1, 0.1, 0, 0]\n"); },
@@ -273,7 +273,7 @@ TEST(SceneReader, WhatIsNotASceneIsAnError) {
   expect_bad_input([] { parse_text("objects:\n  - 7\n"); }, {"scene.yaml:2:", "object", "'7'"});
 }
 
-TEST(SceneReader, ThereIsOneDocument) {
+TEST(SceneReader, SecondYamlDocumentIsRefused) {
   expect_bad_input([] { parse_object("---\nobjects: []\n"); }, {"scene.yaml:4:", "second"});
   expect_bad_input([] { parse_object("---\n"); }, {"scene.yaml:", "second"});
   for (const char* comma : {", 1", "[a] , b", "{objects: []}\n,"})

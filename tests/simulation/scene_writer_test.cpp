@@ -123,7 +123,7 @@ std::string scene_of_all_keys(const TemporaryFolder& folder) {
                       "goal: {position_m: [0.1, 0.2, 0.3], orientation_rpy_deg: [1, 2, 3]}\n");
 }
 
-TEST(SceneWriter, EveryKeyComesBackToTheBit) {
+TEST(SceneWriter, RoundTripOfEveryKeyIsBitIdentical) {
   const TemporaryFolder folder;
   const Scene scene = read_scene(scene_of_all_keys(folder));
   const TemporaryFolder other;
@@ -153,7 +153,7 @@ Scene scene_in_code() {
               {.name = "twin", .mesh = ball, .X_WB = path.pose_at(path.first_time()), .motion = SceneMotion{path}}}};
 }
 
-TEST(SceneWriter, ASceneMadeInCodeComesBackToTheBit) {
+TEST(SceneWriter, RoundTripOfASceneMadeInCodeIsBitIdentical) {
   const TemporaryFolder folder;
   const Scene scene = scene_in_code();
   const Scene read = written_and_read(scene, folder.path("cell.yaml"));
@@ -199,7 +199,7 @@ TEST(SceneWriter, BoxesHoldTheTrianglesThatGiveWayAndNoOthers) {
   EXPECT_FALSE(fs::exists(folder.path("half.yaml")));
 }
 
-TEST(SceneWriter, OtherFilesStay) {
+TEST(SceneWriter, OtherFilesAreNotOverwritten) {
   const TemporaryFolder folder;
   const Scene scene = scene_in_code();
   folder.write("cell_2.obj", "of somebody else");

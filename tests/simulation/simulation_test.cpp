@@ -46,7 +46,7 @@ TEST(Simulation, WrenchIsTheSpringOfTheCouplingAtRest) {
   EXPECT_LT(simulation.wrench(0).t.norm(), 1e-6);
 }
 
-TEST(Simulation, GoesOnWhereAnotherHasLetGo) {
+TEST(Simulation, AdvanceTakesHoldOfAReleasedPart) {
   Simulation simulation(room());
   simulation.engine().leave_part(0);  // as a server does
   lead(simulation, at(0.02, 0.0, 0.017));
@@ -82,7 +82,7 @@ TEST(Simulation, ClearanceIsTheDistanceToTheNearestBody) {
   EXPECT_NEAR(simulation.clearance(0), 0.003, 1e-9) << "to the wall";
 }
 
-TEST(Simulation, PartsOfTheSceneAreInEachOthersWay) {
+TEST(Simulation, PartsBlockEachOther) {
   Scene scene = room();
   scene.objects.push_back({.name = "other",
                            .mesh = geometry::make_box({0.04, 0.04, 0.04}, 12),

@@ -143,7 +143,7 @@ double least_agreement_in_the_middle(const geometry::TriangleMesh& fan) {
 }
 
 // To look at all neighbors of each triangle of a fan would take the square of their number.
-TEST(DisplayMesh, InALargeFanNoTriangleLooksAtItsNeighbors) {
+TEST(DisplayMesh, NormalsInALargeFanIgnoreNeighbors) {
   const double tenth = std::cos(0.1);
   EXPECT_LT(least_agreement_in_the_middle(corrugated_fan(64)), tenth) << "the mean, which leans to no side";
   EXPECT_GT(least_agreement_in_the_middle(corrugated_fan(66)), tenth) << "their own";

@@ -77,7 +77,7 @@ TEST(SceneModel, HasTheColorsOfThePageInLinearLight) {
   }
 }
 
-TEST(Page, ItsColorsAreThoseOfLightScreens) {
+TEST(Page, ColorsAreTheLightTheme) {
   EXPECT_THAT(color("card"), testing::Each(testing::Gt(0.9)));
   EXPECT_THAT(color("text"), testing::Each(testing::Lt(0.2)));
   EXPECT_GT(color("held")[2], 2.0 * color("held")[0]) << "blue";
@@ -85,7 +85,7 @@ TEST(Page, ItsColorsAreThoseOfLightScreens) {
 }
 
 /// Other programs read the model, and so does our own importer. The grid of a mesh has 65535 steps.
-TEST(SceneModel, IsAMeshFile) {
+TEST(SceneModel, CanBeImportedAsAMesh) {
   const ViewScene scene = two_boxes({3.0, 4.0, 5.0});
   const test_support::TemporaryFolder folder;
   const geometry::ImportedMesh imported = geometry::import_mesh(folder.write("model.glb", scene_model(scene, kWhole)));
@@ -158,7 +158,7 @@ TEST(SceneModel, ASmallerModelTellsHowManyTrianglesTheSceneHas) {
   EXPECT_LT(indices / 3, 5500u);
 }
 
-TEST(SceneModel, AHandWhoseLinksHavePosesStandsThere) {
+TEST(SceneModel, HandLinksStandAtTheirGivenPoses) {
   ViewScene scene = two_boxes({1.0, 2.0, 3.0});
   const auto model = std::make_shared<const grasping::HandModel>(grasping::make_hand());
   const Eigen::Isometry3d X_WL(Eigen::Translation3d(4.0, 5.0, 6.0));

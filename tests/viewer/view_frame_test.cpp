@@ -152,7 +152,7 @@ TEST(ViewFrame, TellsWhatAHandLacksThatOnlyPushes) {
             static_cast<float>(grasping::GraspLack::kThumbOrPalm));
 }
 
-TEST(ViewFrame, AHandThatWaitsOrIsLostWithNothingIsNotShown) {
+TEST(ViewFrame, WaitingOrLostHandIsNotShown) {
   using Activity = hands::HandActivity;
   EXPECT_FALSE(is_present(Activity::kNone));
   EXPECT_FALSE(is_present(Activity::kWaiting)) << "where it is has not been told: it would stand at the origin";

@@ -56,7 +56,7 @@ TEST(ViewServer, ServesThePageAndTheModels) {
   EXPECT_FALSE(refused.keep_alive());
 }
 
-TEST(ViewServer, AnswersWhatItDoesNotUnderstand) {
+TEST(ViewServer, RequestWithABodyIsABadRequest) {
   const ViewServer server(small_scene());
   Browser browser(server.port());
   const auto answer = browser.ask(http::verb::post, "/", "", "a body");
@@ -118,7 +118,7 @@ TEST(ViewServer, IsReachedBesideHundredsOfConnectionsThatAskForNothing) {
     EXPECT_EQ(Browser(server.port()).ask(http::verb::get, "/nothing").result(), http::status::not_found) << i;
 }
 
-TEST(ViewServer, ServesSoManyAtOnceAndHangsUpOnTheOldestThatAsksForNothing) {
+TEST(ViewServer, ClosesTheOldestIdleConnectionBeyond128) {
   constexpr std::size_t kMost = 128;
   const ViewServer server(small_scene());
   std::vector<std::unique_ptr<Browser>> browsers;
@@ -137,7 +137,7 @@ TEST(ViewServer, ServesSoManyAtOnceAndHangsUpOnTheOldestThatAsksForNothing) {
   EXPECT_TRUE(is_served(*browsers[1]));
 }
 
-TEST(ViewServer, SoManyPagesMayLookOnAndNoMore) {
+TEST(ViewServer, RefusesMoreThan64Viewers) {
   constexpr std::size_t kMost = 64;
   ViewServer server(small_scene());
   server.push(state_of(1));
@@ -163,7 +163,7 @@ TEST(ViewServer, EndsWhileViewersAreThere) {
   EXPECT_THROW(viewer.next(), boost::system::system_error);
 }
 
-TEST(ViewServer, TellsPagesThatItsEndIsNoFailure) {
+TEST(ViewServer, ViewersAreToldOfARegularEnd) {
   auto server = std::make_unique<ViewServer>(small_scene());
   server->push(state_of(1));
   PageViewer viewer(server->port());

@@ -75,7 +75,7 @@ TEST_F(Demo, ThePageNamesTheRules) {
   EXPECT_NE(page.find("<td>friction 0.2</td>"), std::string::npos);
 }
 
-TEST_F(Demo, InRealTimeGloveAndServerMeetOverLcmAndReachTheSameSeat) {
+TEST_F(Demo, RealTimeRunOverLcmReachesTheGoal) {
   const nlohmann::json summary = run({"--scene", scene, "--seconds", "1.2", "--report", files().path("report")});
   EXPECT_GE(summary["ticks"], 800) << "until the end of the script; a busy machine misses some";
   EXPECT_EQ(summary["colliding_poses"], 0);
@@ -154,7 +154,7 @@ TEST_F(Demo, ThatMissesItsGoalFailsAndSaysWhy) {
   test_support::expect_fails(1, {"demo", "--offline", "--seconds", "0.05", "--scene", scene}, {"missed its goal by"});
 }
 
-TEST_F(Demo, FingersAreThoseOfTheBuiltInScene) {
+TEST_F(Demo, FingersOptionRefusesAScene) {
   expect_refused({"demo", "--fingers", "--scene", scene}, {"--fingers", "--scene"});
 }
 
@@ -173,7 +173,7 @@ TEST_F(Demo, AServerSpinsForHalfOfItsPeriodAtMost) {
   expect_refused({"run", scene, "--rate-hz", "5000", "--spin-us", "300"}, {"--spin-us", "period, 100, not 300"});
 }
 
-TEST_F(Demo, RefusesWhatIsWrong) {
+TEST_F(Demo, RefusesInvalidOptionsAndScenes) {
   expect_refused({"demo", "--seconds", "0"}, {"--seconds", "0.01 and 3600"});
   expect_refused({"demo", "--lcm", "carrier-pigeon://"}, {"carrier-pigeon://"});
   expect_refused({"demo", "--scene", files().path("none.yaml")}, {"none.yaml"});
@@ -204,7 +204,7 @@ TEST_F(Demo, RefusesWhatIsWrong) {
   expect_refused({"glove", "--script", no_script}, {"no_script.yaml"});
 }
 
-TEST_F(Demo, GloveAndServerOfTwoProcessesCannotMeetInsideOne) {
+TEST_F(Demo, RunAndGloveRefuseTheInProcessBus) {
   expect_refused({"run", scene, "--lcm", "memq://"}, {"--lcm", "memq://", "one process"});
   expect_refused({"glove", "--lcm", "memq://"}, {"--lcm", "memq://", "one process"});
 }
@@ -220,7 +220,7 @@ TEST_F(Demo, APartThatStartsInsideAnObstacleIsNamed) {
   expect_refused({"demo", "--scene", stuck}, {"stuck.yaml", "'box'", "collides"});
 }
 
-TEST_F(Demo, AReportWithoutAPlaceIsRefusedBeforeTheRun) {
+TEST_F(Demo, UnwritableReportFolderIsRefusedBeforeTheRun) {
   // An hour in real time: a run that began would not end within this test.
   const std::string file = files().write("file", "");
   expect_refused({"demo", "--scene", scene, "--seconds", "3600", "--report", file}, {file});

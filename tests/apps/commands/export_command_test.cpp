@@ -116,7 +116,7 @@ TEST_F(ExportCommand, TheDigitsAreThoseOfDoublePrecision) {
   }
 }
 
-TEST_F(ExportCommand, ObjectsThatMoveStandWhereTheirTrajectoryIs) {
+TEST_F(ExportCommand, MovingObjectsHaveTheirPoseAtTheGivenTime) {
   folder.write("way.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,1,1,0,0,0\n3,4,0,1,1,0,0,0\n");
   const std::string scene = folder.write("scene.yaml",
                                          "objects:\n"
@@ -181,7 +181,7 @@ class ExportOfARecording : public ExportCommand {
   std::string log = folder.path("run.lcmlog");
 };
 
-TEST_F(ExportOfARecording, PartsStandWhereTheTableSays) {
+TEST_F(ExportOfARecording, PartPosesEqualTheRecordedTable) {
   const std::string file = test_support::write_pressing_scene(folder);
   const std::vector<test_support::CsvRow> rows = record({"--scene", file}, "parts.csv");
   const Scene scene = read_scene(file);
@@ -203,7 +203,7 @@ TEST_F(ExportOfARecording, PartsStandWhereTheTableSays) {
   EXPECT_TRUE(test_support::pose_of(node).isApprox(pose_in(row_after(0.45, rows), "v"), 1e-9));
 }
 
-TEST_F(ExportOfARecording, HandsHaveTheirFingers) {
+TEST_F(ExportOfARecording, HandLinksHaveTheirRecordedPoses) {
   const std::vector<test_support::CsvRow> rows = record({"--fingers"}, "hands.csv");
   const std::vector<ObjGroup> groups = read_obj(exported({"--log", log, "--at", "0.4"}, "moment.obj"));
   const test_support::Glb glb =

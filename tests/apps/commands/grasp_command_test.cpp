@@ -153,7 +153,7 @@ TEST_F(GraspCommand, CarriesTheBallToTheTrayAndLeavesItThere) {
                                      "Clearance of the visible parts, up to 2 mm", "States of the parts"}));
 }
 
-TEST_F(GraspCommand, TellsThatAHandWaits) {
+TEST_F(GraspCommand, ReportsAHandWaitingInsideAnObject) {
   const std::string inside = folder.write("inside.yaml",
                                           "objects:\n- {name: ball, movable: true, shape: {type: sphere}}\n"
                                           "- {name: wall, shape: {type: box, size_x_m: 0.4, size_y_m: 0.8},"
@@ -185,13 +185,13 @@ TEST_F(GraspCommand, TellsWhyNothingIsGrasped) {
                                      "well, or the palm and a middle or outer segment\n"));
 }
 
-TEST_F(GraspCommand, TellsNothingAmongTheRowsOfATable) {
+TEST_F(GraspCommand, PrintsNoSummaryAmongTableRows) {
   const ProgramResult table = glissade({"grasp", kScene, "--hand-trajectory", first_seconds()});
   EXPECT_EQ(table.exit_code, 0) << table.standard_error;
   EXPECT_EQ(table.standard_output.find("holds for"), std::string::npos);
 }
 
-TEST_F(GraspCommand, TakesOtherHands) {
+TEST_F(GraspCommand, AcceptsAHandShapeFile) {
   const std::string shape = folder.write("hand.yaml", "side: left\nlength_m: 0.166\nbreadth_m: 0.075\n");
   const ProgramResult result =
       glissade({"grasp", kScene, "--hand-trajectory", first_seconds(), "--hand", shape, "--out", hands});

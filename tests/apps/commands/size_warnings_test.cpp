@@ -43,7 +43,7 @@ class WrongUnits : public testing::Test {
   const std::string large = mesh("large.obj", "60");  // the same in millimetres
 };
 
-TEST_F(WrongUnits, InfoTellsTheSizeAndWhatItMayBe) {
+TEST_F(WrongUnits, InfoReportsSizeAndProposesAScale) {
   EXPECT_THAT(glissade({"info", small}).standard_output, HasSubstr(" 0.06 m across\n"));
   EXPECT_THAT(glissade({"info", large}).standard_output, HasSubstr(" 60 m across: millimetres? --scale 0.001\n"));
   EXPECT_EQ(glissade({"info", large, "--scale", "0.001"}).standard_output, glissade({"info", small}).standard_output);
@@ -126,7 +126,7 @@ TEST_F(WrongUnits, ViewAndExportWarnOfMeshesToo) {
               HasSubstr(warning));
 }
 
-TEST_F(WrongUnits, AScrewInMillimetresIsNoPartForAHand) {
+TEST_F(WrongUnits, WarnsOfALargePartMeshButNotOfALargeObstacle) {
   mesh("screw.obj", "8");
   const std::string warning = "object 'part' is 8 m across: millimetres? scale: 0.001\n";
   EXPECT_THAT(slide("mesh: screw.obj", "mesh: screw.obj", "-20").standard_error, HasSubstr(warning));
@@ -167,7 +167,7 @@ TEST_F(WrongUnits, EveryCommandWarnsOfAScaleThatWasAppliedTwice) {
   EXPECT_EQ(slide("mesh: crumb.obj", "mesh: small.obj", "-0.001").standard_error, "");
 }
 
-TEST_F(WrongUnits, AMovableShapeOfEightMetresIsNoPartForAHand) {
+TEST_F(WrongUnits, WarnsOfALargePartShapeButNotOfALargeObstacle) {
   const std::string large_part = "shape: {type: box, size_x_m: 8, size_y_m: 0.1, size_z_m: 0.1}";
   const std::string result = slide(large_part, large_part, "-0.2").standard_error;
   EXPECT_THAT(result, HasSubstr("object 'part' is 8 m across, too large for a hand: is its shape in metres?\n"));
@@ -184,7 +184,7 @@ TEST_F(WrongUnits, SlideWarnsOfAPartThatNeverComesNearAnything) {
   EXPECT_EQ(slide(box, box, "0.2").standard_error, "");
 }
 
-TEST_F(WrongUnits, TrajectoriesThatLeaveTheSceneFarBehindAreDoubted) {
+TEST_F(WrongUnits, WarnsOfTrajectoriesFarOutsideTheScene) {
   const std::string scene =
       folder.write("scene.yaml",
                    "objects:\n"

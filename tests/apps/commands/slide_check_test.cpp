@@ -67,7 +67,7 @@ class AssemblyCheck : public testing::Test {
   const std::string below = trajectory("below.csv", "5,0,0,0.03,1,0,0,0\n5.1,0.02,0,0.01,1,0,0,0\n");
 };
 
-TEST_F(AssemblyCheck, TakesTheMethodOfThePaperToo) {
+TEST_F(AssemblyCheck, PaperMethodFindsWhichGoalsAreReached) {
   const ProgramResult result =
       check({above, below}, {"--method", "paper", "--summary", "-", "--report", folder.path("page")});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
@@ -79,7 +79,7 @@ TEST_F(AssemblyCheck, TakesTheMethodOfThePaperToo) {
   EXPECT_LT(rows["below.csv"]["clearance_min_m"], 1e-6);
 }
 
-TEST_F(AssemblyCheck, TellsWhatBecameOfEachTrajectory) {
+TEST_F(AssemblyCheck, SummaryHasTheResultOfEachTrajectory) {
   const ProgramResult result = check({above, below});
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   const auto rows = checks_of(result.standard_output);
@@ -104,14 +104,14 @@ TEST_F(AssemblyCheck, TellsWhatBecameOfEachTrajectory) {
   EXPECT_NEAR(blocked.at("contact_s"), 0.05, 0.003);
 }
 
-TEST_F(AssemblyCheck, HasAGoalOfItsOwnTolerance) {
+TEST_F(AssemblyCheck, GoalToleranceDecidesGoalReached) {
   const ProgramResult strict = check({below}, {"--summary", "-"});
   const ProgramResult lax = check({below}, {"--summary", "-", "--goal-tolerance-m", "0.011"});
   EXPECT_EQ(checks_of(strict.standard_output).at("below.csv").at("goal_reached"), 0.0);
   EXPECT_EQ(checks_of(lax.standard_output).at("below.csv").at("goal_reached"), 1.0);
 }
 
-TEST_F(AssemblyCheck, AGoalThatIsRequiredHasAnExitCodeOfItsOwn) {
+TEST_F(AssemblyCheck, MissedRequiredGoalExitsWithCode3) {
   EXPECT_EQ(check({above, below}).exit_code, 0);
   EXPECT_EQ(check({above}, {"--require-goal"}).exit_code, 0);
   const ProgramResult missed = check({above, below}, {"--require-goal"});
@@ -147,7 +147,7 @@ TEST_F(AssemblyCheck, WritesAPage) {
     EXPECT_THAT(page, testing::HasSubstr(part));
 }
 
-TEST_F(AssemblyCheck, CountsTheTrajectoriesWhereNoTableGoes) {
+TEST_F(AssemblyCheck, PrintsCountsUnlessStandardOutputIsATable) {
   const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
   const ProgramResult result = check({above, inside, below, above}, {"--summary", folder.path("summary.csv")});
   EXPECT_THAT(result.standard_output,
@@ -180,7 +180,7 @@ TEST_F(AssemblyCheck, ThePageOfSeveralShowsTheFirstThatMissesTheGoal) {
               testing::Contains("Force on the hand, " + above));
 }
 
-TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
+TEST_F(AssemblyCheck, ReportOfOneTrajectoryPlotsForcesContactsAndStates) {
   ASSERT_EQ(check({below}, {"--report", folder.path("page")}).exit_code, 0);
   const std::string page = read_text_file(folder.path("page/index.html"));
   EXPECT_THAT(test_support::titles_of(page),
@@ -195,7 +195,7 @@ TEST_F(AssemblyCheck, ThePageOfOneTrajectoryShowsWhatPushesWhen) {
   EXPECT_THAT(words, testing::IsSupersetOf({"free", "sliding"}));
 }
 
-TEST_F(AssemblyCheck, TellsWhereItStandsBeforeItEnds) {
+TEST_F(AssemblyCheck, ShowsProgressAndFinishedRowsWhileRunning) {
   // Hours of motion, which nobody waits for.
   const std::string endless = trajectory("endless.csv", "0,0,0,0.03,1,0,0,0\n86400,0.01,0,0.03,1,0,0,0\n");
   const std::string summary = folder.path("summary.csv");
@@ -218,7 +218,7 @@ TEST_F(AssemblyCheck, TellsWhereItStandsBeforeItEnds) {
   EXPECT_EQ(checks_of(rows).count("above.csv"), 1u) << rows;
 }
 
-TEST_F(AssemblyCheck, ForceAndTorqueAreThoseOfTheTableOfTheMotion) {
+TEST_F(AssemblyCheck, MaximumTorqueEqualsThatOfTheMotionTable) {
   // Held by a corner and turned, so that there is a torque, and it depends on the point that it is about.
   const std::string by_corner = folder.write("corner.yaml",
                                              "objects:\n"
@@ -258,7 +258,7 @@ TEST_F(AssemblyCheck, OneRunWritesEverything) {
   }
 }
 
-TEST_F(AssemblyCheck, OneThatCannotStartFailsAlone) {
+TEST_F(AssemblyCheck, TrajectoryThatCannotStartDoesNotStopTheOthers) {
   const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
   const ProgramResult result = check({inside, above});
   EXPECT_EQ(result.exit_code, 1);
@@ -271,7 +271,7 @@ TEST_F(AssemblyCheck, GivesTheSameBytesAgain) {
   EXPECT_EQ(check(many).standard_output, check(many).standard_output);
 }
 
-TEST_F(AssemblyCheck, RefusesWhatMakesNoSense) {
+TEST_F(AssemblyCheck, RefusesInvalidOptions) {
   expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--out", folder.path("rows.csv")},
                  {"--out", "--summary"});
   expect_refused({"slide", scene, "--part", "box", "--trajectory", above, below, "--contacts", folder.path("rows.csv")},

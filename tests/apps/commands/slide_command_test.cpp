@@ -131,7 +131,7 @@ TEST_F(Slide, InACornerItStops) {
   }
 }
 
-TEST_F(Slide, ContactsAndPatchesTellWhatPushes) {
+TEST_F(Slide, ContactAndPatchForcesSumToTheHandForce) {
   const std::string hand =
       trajectory("0,0.06,0,0.03,1,0,0,0\n0.1,0.047,0,0.018,1,0,0,0\n0.2,0.047,0.02,0.018,1,0,0,0\n");
   const ProgramResult result =
@@ -247,7 +247,7 @@ TEST_F(Slide, APartThatStartsInsideIsDepenetratedOnRequest) {
   EXPECT_NEAR(rows.back().at("vz_m"), 0.02, 1e-5) << "half of the box above the floor";
 }
 
-TEST_F(Slide, APartThatFitsAtNominalSizeComesOutAndNeverThroughTheWall) {
+TEST_F(Slide, PartOfNominalFitLeavesTheSlotButNotThroughItsWalls) {
   const auto ends_at = [&](const std::string& left, const std::string& hand, const std::vector<std::string>& options) {
     const std::string file =
         folder.write("slot.yaml",
@@ -310,7 +310,7 @@ TEST_F(Slide, TheForceIsStiffnessTimesDepth) {
   EXPECT_NEAR(force({"--stiffness", "5000", "--method", "paper"}), 5000.0 * 0.002, 0.01 * 5000.0 * 0.002);
 }
 
-TEST_F(Slide, TellsTheOutcomeWhereNoTableGoes) {
+TEST_F(Slide, PrintsOutcomeUnlessStandardOutputIsATable) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const ProgramResult result = test_support::glissade(
       {"slide", scene({floor}), "--part", "box", "--trajectory", hand, "--out", folder.path("motion.csv")});
@@ -319,7 +319,7 @@ TEST_F(Slide, TellsTheOutcomeWhereNoTableGoes) {
                 "0.000 Nm about the part's reference point; 0.000 of 0.010 s in contact\n");
 }
 
-TEST_F(Slide, RefusesRulesThatCannotBe) {
+TEST_F(Slide, RefusesInvalidRules) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const auto slide_with = [&](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"slide", scene({floor}), "--part", "box", "--trajectory", hand};
@@ -334,7 +334,7 @@ TEST_F(Slide, RefusesRulesThatCannotBe) {
   expect_refused(slide_with({"--method", "paper", "--spiral-search"}), {"--method", "--spiral-search"});
 }
 
-TEST_F(Slide, AnObjectThatCannotTakePartIsNamed) {
+TEST_F(Slide, ObjectTooFarAwayOrWithoutAreaIsNamed) {
   const std::string hand = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   const std::string far = "{position_m: [0, 1.0e+9, 0]}";
   const auto slide_part = [&](const std::string& scene_file, const std::string& part) {
@@ -356,7 +356,7 @@ TEST_F(Slide, AnObjectThatCannotTakePartIsNamed) {
   }
 }
 
-TEST_F(Slide, RefusesWhatIsWrong) {
+TEST_F(Slide, RefusesInvalidInput) {
   const std::string good = trajectory("0,0,0,0.03,1,0,0,0\n0.01,0,0,0.03,1,0,0,0\n");
   expect_refused({"slide", scene({floor}), "--part", "motor", "--trajectory", good}, {"motor", "box, sheet0"});
   expect_refused({"slide", scene({floor}), "--part", "box", "--trajectory", good, "--metaphor", "glue"},

@@ -49,7 +49,7 @@ class SlideAmongMovingObjects : public testing::Test {
       folder.write("hand.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n1,0,0,0.045,1,0,0,0\n1.2,0,0,0.045,1,0,0,0\n");
 };
 
-TEST_F(SlideAmongMovingObjects, TheyKeepTheTimeOfTheTrajectoryAndPushThePart) {
+TEST_F(SlideAmongMovingObjects, ObjectsFollowTheirTrajectoryAndPushThePart) {
   const ProgramResult result = test_support::glissade(
       slide(scene(), {"--moving", folder.path("moving.csv"), "--contacts", folder.path("contacts.csv")}));
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
@@ -73,7 +73,7 @@ TEST_F(SlideAmongMovingObjects, TheyKeepTheTimeOfTheTrajectoryAndPushThePart) {
     EXPECT_EQ(contact.at("obstacle"), "lift");
 }
 
-TEST_F(SlideAmongMovingObjects, AnotherHandGivesWayAsMuch) {
+TEST_F(SlideAmongMovingObjects, ObjectWithEqualGripStiffnessYieldsHalf) {
   const ProgramResult result = test_support::glissade(slide(scene(", grip_N_per_m: 1000")));
   ASSERT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_NEAR(std::stod(rows_of(result.standard_output).back().at("vz_m")), 0.0475, kTwoMargins);
@@ -89,7 +89,7 @@ TEST_F(SlideAmongMovingObjects, ACheckTellsTheClearanceToThem) {
   EXPECT_GT(std::stod(rows[0].at("clearance_min_at_s")), 0.045) << "when the lift has come";
 }
 
-TEST_F(SlideAmongMovingObjects, RefusesWhatMakesNoSense) {
+TEST_F(SlideAmongMovingObjects, RefusesInvalidInput) {
   expect_refused(slide(scene(", pose: {position_m: [0, 0, 1]}")), {"scene.yaml:4", "pose", "moves"});
   expect_refused(slide(scene(", margin_m: 1.0e-6")), {"scene.yaml:4", "margin_m", "moves"});
   expect_refused(slide(scene(", grip_N_per_m: 0")), {"scene.yaml:4", "grip_N_per_m", "positive"});
@@ -103,7 +103,7 @@ TEST_F(SlideAmongMovingObjects, RefusesWhatMakesNoSense) {
 }
 
 /// The lift comes up below a hand that stays where it is.
-TEST_F(SlideAmongMovingObjects, TheHapticLoopFeelsThemToo) {
+TEST_F(SlideAmongMovingObjects, ObjectsPushTheHandInTheHapticLoop) {
   const std::string above = folder.write(
       "demo.yaml",
       "objects:\n"
@@ -123,7 +123,7 @@ TEST_F(SlideAmongMovingObjects, TheHapticLoopFeelsThemToo) {
   EXPECT_LT(summary["hands"][0]["force_max_N"], 5e-3 * 1000.0) << "the arm yields";
 }
 
-TEST_F(SlideAmongMovingObjects, WhereNothingMovesThereIsNothingToWrite) {
+TEST_F(SlideAmongMovingObjects, MovingTableIsRefusedWithoutMovingObjects) {
   const std::string still = folder.write("still.yaml",
                                          "objects:\n"
                                          "  - {name: cube, movable: true, shape: {type: box}}\n"
@@ -153,7 +153,7 @@ TEST_F(SlideAmongMovingObjects, EachHasItsOwnName) {
   EXPECT_LT(force["press"], -100.0);
 }
 
-TEST_F(SlideAmongMovingObjects, OnlySoManyCanMove) {
+TEST_F(SlideAmongMovingObjects, RefusesTooManyMovingObjects) {
   std::string text =
       "objects:\n"
       "  - {name: cube, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02, triangles: 12}}\n";

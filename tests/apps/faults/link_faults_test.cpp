@@ -22,7 +22,7 @@ class LinkFaults : public PressingHandTest {};
 
 void drop(const Bytes& /*message*/, std::mt19937& /*random*/, const Send& /*send*/) {}
 
-TEST_F(LinkFaults, NoneLeavesTheForceAlone) {
+TEST_F(LinkFaults, ForceIsUnchangedWithoutAFault) {
   wait();
   const GloveRecord record = this->record();
   const auto periods = record.between(begin(), monotonic_now());
@@ -30,7 +30,7 @@ TEST_F(LinkFaults, NoneLeavesTheForceAlone) {
   EXPECT_THAT(hand().end_server(), HasSubstr("holds"));
 }
 
-TEST_F(LinkFaults, StatesThatStopTakeTheForceAway) {
+TEST_F(LinkFaults, ForceFadesWhenStatesStop) {
   relay().set_states(drop);
   wait();
   recover();
@@ -39,7 +39,7 @@ TEST_F(LinkFaults, StatesThatStopTakeTheForceAway) {
   expect_soft_return(record);
 }
 
-TEST_F(LinkFaults, CommandsThatStopTakeTheForceAway) {
+TEST_F(LinkFaults, ForceFadesWhenCommandsStop) {
   relay().set_commands(drop);
   wait();
   recover();
@@ -87,7 +87,7 @@ TEST_F(LinkFaults, MessagesThatComeTwiceChangeNothing) {
   expect_pressing_again(record);
 }
 
-TEST_F(LinkFaults, ADelayTakesTheForceAwayAndTheServerIsTold) {
+TEST_F(LinkFaults, ForceFadesAtALongDelayAndTheServerReportsIt) {
   const auto late = [](const Bytes& message, std::mt19937& /*random*/, const Send& send) {
     send(message, milliseconds(200));
   };
@@ -100,7 +100,7 @@ TEST_F(LinkFaults, ADelayTakesTheForceAwayAndTheServerIsTold) {
 }
 
 // That it comes to rest is told by passivity_test, where no process waits for a processor.
-TEST_F(LinkFaults, ASmallerDelayIsFeltAsSoft) {
+TEST_F(LinkFaults, ShortDelaySoftensTheContact) {
   const auto late = [](const Bytes& message, std::mt19937& /*random*/, const Send& send) {
     send(message, milliseconds(25));
   };
@@ -131,7 +131,7 @@ TEST_F(LinkFaults, CorruptedMessagesMakeNoJump) {
   expect_pressing_again(record());  // until then anything within the limits: a force with one wrong bit looks good
 }
 
-TEST_F(LinkFaults, NumbersThatAreNoneTakeTheForceAway) {
+TEST_F(LinkFaults, ForceFadesWhenCommandsAreNaN) {
   relay().set_commands(Relay::changed<glissade::glove_command_t>(
       [](auto& command) { command.force_H_W_N[1] = std::numeric_limits<double>::quiet_NaN(); }));
   wait();
@@ -141,7 +141,7 @@ TEST_F(LinkFaults, NumbersThatAreNoneTakeTheForceAway) {
   expect_soft_return(record);
 }
 
-TEST_F(LinkFaults, AStateThatIsNotFiniteTakesTheForceAway) {
+TEST_F(LinkFaults, ForceFadesWhenStatesAreNotFinite) {
   relay().set_states(Relay::changed<glissade::glove_state_t>(
       [](auto& state) { state.position_WH_m[0] = std::numeric_limits<double>::infinity(); }));
   wait();
@@ -151,7 +151,7 @@ TEST_F(LinkFaults, AStateThatIsNotFiniteTakesTheForceAway) {
   expect_soft_return(record);
 }
 
-TEST_F(LinkFaults, HugeNumbersTakeTheForceAway) {
+TEST_F(LinkFaults, ForceFadesWhenNumbersAreHuge) {
   relay().set_commands(
       Relay::changed<glissade::glove_command_t>([](auto& command) { command.force_H_W_N[0] = -1e30; }));
   relay().set_states(Relay::changed<glissade::glove_state_t>([](auto& state) { state.v_WH_m_per_s[0] = 1e30; }));
@@ -191,7 +191,7 @@ TEST_F(LinkFaults, AFrozenPoseHoldsItsForce) {
   expect_pressing_again(record);
 }
 
-TEST_F(LinkFaults, TimeThatGoesBackTakesTheForceAwayForATime) {
+TEST_F(LinkFaults, ForceFadesAndReturnsWhenGloveTimeGoesBack) {
   relay().set_states(Relay::changed<glissade::glove_state_t>([](auto& state) { state.time_ns -= 1'000'000'000; }));
   wait();
   recover();
@@ -200,7 +200,7 @@ TEST_F(LinkFaults, TimeThatGoesBackTakesTheForceAwayForATime) {
   expect_pressing_again(record);
 }
 
-TEST_F(LinkFaults, SequencesThatFallMakeNoPulses) {
+TEST_F(LinkFaults, FallingSequenceNumbersGiveNoForce) {
   const auto falling = [next = std::optional<std::int64_t>()](auto& message) mutable {
     next = next ? *next - 1 : message.sequence;
     message.sequence = *next;

@@ -64,7 +64,7 @@ TEST_F(ProcessFaults, AGloveThatIsStoppedAndContinuedGetsNoOldForce) {
   EXPECT_THAT(hand().end_server(), HasSubstr("no force: the glove's state is"));
 }
 
-TEST_F(ProcessFaults, AGloveThatRestartsElsewhereIsTakenUpSoftly) {
+TEST_F(ProcessFaults, ForceReturnsSoftlyToAGloveRestartedElsewhere) {
   const double killed = std::chrono::duration<double>(monotonic_now()).count();
   hand().glove().signal(SIGKILL);
   const std::string file = hand().folder().path("restarted.csv");
@@ -146,11 +146,11 @@ class SlidingHandFaults : public PressingHandTest {
   }
 };
 
-TEST_F(SlidingHandFaults, AHaltedSimulationDragsNothing) {
+TEST_F(SlidingHandFaults, HaltedSimulationCausesNoDrag) {
   halt("simulation");
 }
 
-TEST_F(SlidingHandFaults, AHaltedSearchDragsNothing) {
+TEST_F(SlidingHandFaults, HaltedSearchThreadCausesNoDrag) {
   halt("search");
 }
 
@@ -164,7 +164,7 @@ class FrozenTracker : public SlidingHandFaults {
   }
 };
 
-TEST_F(FrozenTracker, TakesTheForceAway) {
+TEST_F(FrozenTracker, ForceFadesWhenThePoseRepeats) {
   relay().set_states(
       Relay::changed<glissade::glove_state_t>([first = std::optional<glissade::glove_state_t>()](auto& state) mutable {
         if (!first) first = state;
@@ -190,7 +190,7 @@ class BallOnTheWay : public SlidingHandFaults {
   }
 };
 
-TEST_F(BallOnTheWay, ASimulationWithoutMemoryForItLetsTheForceFade) {
+TEST_F(BallOnTheWay, ForceFadesWhenTheSimulationRunsOutOfMemory) {
   hand().server().signal(SIGUSR2);
   wait(milliseconds(2500));
   const GloveRecord record = this->record();
@@ -224,7 +224,7 @@ class FineMeshes : public FineMeshesFaults {
   }
 };
 
-TEST_F(FineMeshes, DragNothing) {
+TEST_F(FineMeshes, SlowAnswersCauseNoDrag) {
   expect_no_drag_for_long();
 }
 
@@ -240,7 +240,7 @@ class FastHand : public FineMeshesFaults {
   }
 };
 
-TEST_F(FastHand, OnFineMeshesDragsNothing) {
+TEST_F(FastHand, SlowAnswersCauseNoDrag) {
   expect_no_drag_for_long();
 }
 
@@ -252,7 +252,7 @@ class DeepHand : public PressingHandTest {
   }
 };
 
-TEST_F(DeepHand, FeelsNothingOfAHaltedSimulationAndGetsItsForceBackSoftly) {
+TEST_F(DeepHand, ForceFadesAndReturnsSoftlyWhenTheSimulationHalts) {
   const nanoseconds begin = monotonic_now();
   hand().server().signal_thread("simulation", SIGUSR1);
   wait(milliseconds(2500));  // on a busy computer, the force returns more slowly

@@ -66,7 +66,7 @@ class FileChecks : public testing::Test {
   const std::string pipe = folder.path("pipe");
 };
 
-TEST_F(FileChecks, TablesDoNotTakeThePlaceOfTheirLog) {
+TEST_F(FileChecks, ExportsMayNotOverwriteTheirLog) {
   const std::string before = read_text_file(log);
   for (const char* table : {"ticks.csv", "parts.csv", "hands.csv", "gloves.csv"}) {
     for (const bool is_hard : {true, false}) {
@@ -153,7 +153,7 @@ TEST_F(FileChecks, ARecordingReplacesAnOlderFileOnlyOnRequest) {
   expect_refused({"demo", "--seconds", "0.1", "--scene", scene, "--record", log}, {"is there already"});
 }
 
-TEST_F(FileChecks, WhatIsComputedReplacesAnOlderFile) {
+TEST_F(FileChecks, TablesOverwriteOlderFiles) {
   const std::string out = folder.write("out.csv", "of an earlier run");
   EXPECT_EQ(glissade(slide({"--out", out})).exit_code, 0);
   EXPECT_EQ(read_text_file(out), glissade(slide({})).standard_output);
@@ -186,7 +186,7 @@ TEST_F(FileChecks, TwoOutputsAreNotOneFile) {
                  {"--objects", "the file of --out"});
 }
 
-TEST_F(FileChecks, AnOutputNeedsAFolderAndIsNone) {
+TEST_F(FileChecks, OutputInAMissingFolderOrToAFolderIsRefused) {
   for (const Arguments& arguments : {slide({"--out"}), demo({"--record"}), Arguments{"log", "to-mcap", log}}) {
     Arguments into_nowhere = arguments;
     into_nowhere.push_back(folder.path("no/file"));

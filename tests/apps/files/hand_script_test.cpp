@@ -80,13 +80,13 @@ TEST(HandScript, TellsWhenTheHandClosesAndOpens) {
   EXPECT_EQ(glove.step(milliseconds(1), {}).grip, 2);
 }
 
-TEST(HandScript, IsClosedWithoutThatColumn) {
+TEST(HandScript, HandIsClosedWithoutAGripColumn) {
   const HandScript script = parse_hand_script("t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n", "hand.csv");
   EXPECT_TRUE(script.starts_closed);
   EXPECT_TRUE(script.grip_changes.empty());
 }
 
-TEST(HandScript, AHandIsClosedOrOpen) {
+TEST(HandScript, GripOtherThan0Or1IsRefused) {
   expect_bad_input([] { parse_hand("0,0,0,0,1,0,0,0,0.5\n"); }, {"hand.csv:2:", "grip", "0.5"});
 }
 

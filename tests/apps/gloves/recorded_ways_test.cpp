@@ -38,7 +38,7 @@ TEST(RecordedWays, AWayThroughAnotherCubeIsNotStraight) {
 }
 
 // In a corridor with a bend, without room to the sides, the second cube can only wait until the first one is away.
-TEST(RecordedWays, CubesMayGoOneAfterAnother) {
+TEST(RecordedWays, DetourIsFoundByMovingOneCubeAfterAnother) {
   constexpr double kWall = 0.04001;  // from a cube to the middle of a cube that is a wall
   const std::vector<BoxOfScene> walls{{kCube, at(kWall, 0.0)},    {kCube, at(kWall, kWall)},
                                       {kCube, at(0.0, -kWall)},   {kCube, at(-kWall, -kWall)},
@@ -56,7 +56,7 @@ Isometry3d pose_of(const std::array<double, 12>& rows) {
 }
 
 // Of a recording: the third cube turns at the second one, which lies at a wall.
-TEST(RecordedWays, ACubeMayTurnAside) {
+TEST(RecordedWays, DetourIsFoundByTurningACube) {
   const std::array from{
       pose_of({0.81697223726235169, -0.57492670463557205, 0.044895966850369062, 0.05977495154224078,
                0.57664318072137888, 0.81360169114589487, -0.074397112121849934, 0.020161271835428117,

@@ -320,7 +320,7 @@ std::string end_of(const std::string& text) {
 }
 
 /// Ten thousand grasps and releases in ten minutes: GLISSADE_HAND_SECONDS=600.
-TEST(TwoGloves, PassShareAndPushPartsAndLoseNothing) {
+TEST(TwoGloves, RandomGraspsCauseNoCollisionForceJumpOrLostTick) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const char* const wish = std::getenv("GLISSADE_HAND_SECONDS");
   const int seconds = wish != nullptr ? std::max(8, std::atoi(wish)) : 15;

@@ -131,7 +131,7 @@ class TwoHandsSeat : public testing::Test {
   static inline std::vector<RecordedTick> recorded;
 };
 
-TEST_F(TwoHandsSeat, ABarInItsForks) {
+TEST_F(TwoHandsSeat, BarEndsInItsForks) {
   const std::vector<HeldByHands> holds = test_support::holds_of(recorded);
   EXPECT_THAT(holds, Contains(HeldByHands(0, 0)));
   EXPECT_EQ(holds.back(), HeldByHands(-1, -1)) << server.standard_error;
@@ -172,7 +172,7 @@ TEST_F(TwoHandsSeat, FeelsTheForks) {
   EXPECT_GT(greatest_N[1], 1.0);
 }
 
-TEST_F(TwoHandsSeat, FeelsNothingThatJumpsAndNothingAfterwards) {
+TEST_F(TwoHandsSeat, ForceNeverJumpsAndIsZeroAfterLettingGo) {
   test_support::expect_nothing_that_jumps(recorded);
   std::optional<std::chrono::nanoseconds> left;  // both have opened, and are away from the bar
   for (const RecordedTick& tick : recorded) {
@@ -189,7 +189,7 @@ TEST_F(TwoHandsSeat, FeelsNothingThatJumpsAndNothingAfterwards) {
   ASSERT_TRUE(left);
 }
 
-TEST_F(TwoHandsSeat, IsRepeatedToTheBit) {
+TEST_F(TwoHandsSeat, ReplayIsBitIdentical) {
   const test_support::ProgramResult replay = test_support::glissade({"replay", log()});
   EXPECT_EQ(replay.exit_code, 0) << replay.standard_error;
 }

@@ -144,7 +144,7 @@ TEST_F(TwoHands, TakeHoldShareCarryAndLeave) {
   EXPECT_EQ(summary["hands"][0]["has_fingers"], true);
 }
 
-TEST_F(TwoHands, ShowNothingThatPenetrates) {
+TEST_F(TwoHands, VisibleBodiesNeverCollide) {
   VisibleBodies bodies = visible_bodies();
   for (std::size_t i = 0; i < recorded.size(); i += 5)
     ASSERT_FALSE(bodies.collide(recorded[i].state)) << "after " << i << " ms";
@@ -215,7 +215,7 @@ TEST(OneHand, StopsItsFingersAtTheSurface) {
   EXPECT_GE(stopped, 3) << "joints that a degree more would bring into the ball";
 }
 
-TEST_F(TwoHands, FeelNothingThatJumpsAndNothingThatLasts) {
+TEST_F(TwoHands, ForceNeverJumpsAndIsZeroAtTheEnd) {
   EXPECT_GT(test_support::expect_nothing_that_jumps(recorded), 2.0) << "the wall";
   for (std::size_t i = static_cast<std::size_t>(8.3e3); i < recorded.size(); ++i) {
     for (std::size_t h = 0; h < 2; ++h) {
@@ -225,7 +225,7 @@ TEST_F(TwoHands, FeelNothingThatJumpsAndNothingThatLasts) {
   }
 }
 
-TEST_F(TwoHands, AreRepeatedToTheBit) {
+TEST_F(TwoHands, ReplayIsBitIdentical) {
   const ProgramResult replay = test_support::glissade({"replay", log()});
   EXPECT_EQ(replay.exit_code, 0) << replay.standard_error;
   EXPECT_THAT(replay.standard_output, HasSubstr("bit-identical"));

@@ -225,7 +225,7 @@ TEST(TwoProcesses, AServerWithAnotherKeySaysThatItRefuses) {
   EXPECT_NE(result.standard_error.find("have another key"), std::string::npos) << result.standard_error;
 }
 
-TEST(TwoProcesses, AServerThatWaitsForAnotherGloveSaysWhichSend) {
+TEST(TwoProcesses, WaitingServerListsOtherGloves) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;
   const test_support::Process glove({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
@@ -234,7 +234,7 @@ TEST(TwoProcesses, AServerThatWaitsForAnotherGloveSaysWhichSend) {
   EXPECT_TRUE(says(server, "glove 7 is silent, but there are other gloves (--device): 1\n")) << server.standard_error();
 }
 
-TEST(ThreeProcesses, ASecondGloveWithTheSameNumberIsTold) {
+TEST(ThreeProcesses, SecondGloveWithTheSameNumberIsReported) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;
   const test_support::Process first({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
@@ -245,7 +245,7 @@ TEST(ThreeProcesses, ASecondGloveWithTheSameNumberIsTold) {
   EXPECT_TRUE(says(server, "a second glove sends as glove 1, and is not heard")) << server.standard_error();
 }
 
-TEST(TwoProcesses, APortThatIsTakenIsToldBeforeAnyGloveComes) {
+TEST(TwoProcesses, TakenViewPortIsReportedBeforeWaitingForGloves) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;
   const test_support::Process viewer({GLISSADE_PROGRAM, "view", "--lcm", test_support::kUrl, "--port", "8499"});

@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-TEST(HelperProcess, DoesOneWorkAfterTheOtherInAProcessOfItsOwn) {
+TEST(HelperProcess, RunsAllTasksInOneSeparateProcess) {
   SharedStamps stamps(10);
   HelperProcess helper([&](char work, const std::atomic<bool>& should_end) {
     stamps.note(work, nanoseconds(getpid()));
@@ -48,7 +48,7 @@ TEST(HelperProcess, TellsWhatTheWorkHasThrownAndGoesOn) {
   EXPECT_NO_THROW(helper.end());
 }
 
-TEST(HelperProcess, ASecondProcessThatIsNoMoreIsAnError) {
+TEST(HelperProcess, EndedHelperIsAnError) {
   HelperProcess helper([](char, const std::atomic<bool>&) { _exit(3); });
   helper.begin('w');
   EXPECT_THROW(helper.end(), std::runtime_error);

@@ -22,7 +22,7 @@ namespace {
 using test_support::given_latency_figures;
 using testing::HasSubstr;
 
-TEST(LatencyRatios, CompareTheLoopsOverAllLinksAndTheWholeWayWithRoundTripAndHalfATick) {
+TEST(LatencyRatios, LatenessToBareLoopAndWholeWayToRoundTripPlusHalfTick) {
   const LatencyRatios ratios = latency_ratios(given_latency_figures().loaded);
   // 30 µs to 20 µs; the round trip of 100 µs and half a tick of 500 µs are two thirds of the 900 µs of the way.
   EXPECT_NEAR(ratios.lateness_p50, 1.5, 0.03);

@@ -25,7 +25,7 @@ TEST(LatencyStages, EachStageIsTheTimeBetweenItsStamps) {
   EXPECT_EQ(stages.whole.max(), nanoseconds(50));
 }
 
-TEST(LatencyStages, TheStagesOfAWayAddUpToItsWholeAlsoIfTheReaderWasFasterThanTheStamp) {
+TEST(LatencyStages, StagesSumToWholeEvenIfReadPrecedesArrivalStamp) {
   LatencyStages stages;
   stages.record({nanoseconds(0), nanoseconds(70), nanoseconds(60), nanoseconds(65), nanoseconds(100)});
   const nanoseconds sum = stages.transport.max() + stages.wait.max() + stages.computation.max() + stages.way_back.max();
@@ -75,7 +75,7 @@ void tick(StampedGlove& glove, devices::SafetyEnvelope& envelope, std::int64_t s
   glove.command(envelope.limit(command, state, state.time));
 }
 
-TEST(StampedGlove, ASampleThatTwoTicksReadCountsOnceAndOneWithoutItsCommandIsLost) {
+TEST(StampedGlove, SampleReadTwiceCountsOnceAndWithoutCommandIsLost) {
   GivenStates device;
   StampedGlove glove(device, 100);
   devices::SafetyEnvelope envelope(device.descriptor());
@@ -103,7 +103,7 @@ TEST(StampedGlove, ASampleThatTwoTicksReadCountsOnceAndOneWithoutItsCommandIsLos
   EXPECT_EQ(stages.lost, 1U);
 }
 
-TEST(StampedGlove, NotesNoMoreThanItHasRoomFor) {
+TEST(StampedGlove, SamplesBeyondCapacityAreLost) {
   GivenStates device;
   StampedGlove glove(device, 2);
   devices::SafetyEnvelope envelope(device.descriptor());

@@ -247,7 +247,7 @@ TEST_F(McapFile, ChecksumsAndOffsetsAreThoseOfTheSpecification) {
   EXPECT_EQ(end_of_group, offsets) << "the groups are all of the summary";
 }
 
-TEST_F(McapFile, WithoutMessagesIsOneToo) {
+TEST_F(McapFile, IsValidWithoutMessages) {
   end();
   EXPECT_THAT(with_opcode(records, 6), testing::IsEmpty());
   EXPECT_EQ(McapFields(with_opcode(records, 11).at(0).content).number<std::uint64_t>(), 0U);

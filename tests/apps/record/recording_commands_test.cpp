@@ -68,7 +68,7 @@ class RecordingInRealTime : public RecordingCommands {
   RecordingInRealTime() : RecordingCommands(false) {}
 };
 
-TEST_F(RecordingCommands, AnOfflineRunIsRepeatedToTheBit) {
+TEST_F(RecordingCommands, ReplayOfAnOfflineRunIsBitIdentical) {
   const test_support::ProgramResult result = test_support::glissade({"replay", log_, "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
   const nlohmann::json repeated = outcome(result);
@@ -79,7 +79,7 @@ TEST_F(RecordingCommands, AnOfflineRunIsRepeatedToTheBit) {
   EXPECT_THAT(test_support::glissade({"replay", log_}).standard_output, HasSubstr("bit-identical"));
 }
 
-TEST_F(RecordingInRealTime, IsRepeatedToTheBit) {
+TEST_F(RecordingInRealTime, ReplayIsBitIdentical) {
   const test_support::ProgramResult result = test_support::glissade({"replay", log_, "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.standard_error;
   EXPECT_EQ(outcome(result)["same"], true);
@@ -146,7 +146,7 @@ TEST_F(RecordingCommands, TheRunsOfJoinedLogsAreRepeatedOneAfterTheOther) {
   expect_fails(1, {"replay", changed(bytes() + second), "--json"}, {"run 2: the tick after 9 cannot be read"});
 }
 
-TEST_F(RecordingCommands, OtherFilesOfJoinedLogsHaveAllRuns) {
+TEST_F(RecordingCommands, ExportsOfJoinedLogsHaveAllRuns) {
   const std::string joined = changed(bytes() + bytes());
   const std::string tables = folder_.path("tables");
   ASSERT_EQ(test_support::glissade({"log", "to-csv", joined, tables}).exit_code, 0);
@@ -159,7 +159,7 @@ TEST_F(RecordingCommands, OtherFilesOfJoinedLogsHaveAllRuns) {
   expect_refused({"export", "--log", joined, "--at", "0.6", "--out", folder_.path("a.glb")}, {"--at", "beyond"});
 }
 
-TEST_F(RecordingCommands, ALogWithGapsGivesWhatItHas) {
+TEST_F(RecordingCommands, LogWithMissingEventsIsExportedWithoutError) {
   devices::EventLogReader reader(log_);
   const std::string thin = folder_.path("thin.lcmlog");
   devices::EventLogWriter writer(thin);
@@ -190,7 +190,7 @@ TEST_F(RecordingCommands, TablesTellOfEveryTick) {
   EXPECT_LT(parse_number(rows("parts.csv").back().at("gz_m")), parse_number(rows("parts.csv").back().at("vz_m")));
 }
 
-TEST_F(RecordingCommands, ATableOfAnotherLogIsToldWhereThisOneHasNoRowsForIt) {
+TEST_F(RecordingCommands, LeftoverTablesOfAnotherLogAreReported) {
   const std::string tables = folder_.path("tables");
   ASSERT_EQ(test_support::glissade({"log", "to-csv", log_, tables}).exit_code, 0);
   const std::string only_a_state = folder_.path("state.lcmlog");
@@ -237,7 +237,7 @@ TEST_F(RecordingCommands, TablesOfADamagedLogHoldWhatComesBefore) {
 }
 
 // The log itself is whole.
-TEST_F(RecordingCommands, TablesAndMcapLackAnEventWhoseBytesChangedAndSaySo) {
+TEST_F(RecordingCommands, UnreadableEventIsOmittedFromExportsAndReported) {
   std::string flipped = bytes();
   flipped[flipped.find("HAPTIC_TICK", flipped.size() / 2) + 200] ^= 1;
   const std::string log = changed(flipped);
@@ -333,7 +333,7 @@ TEST(FlightLog, ReplacesNoOlderFile) {
   EXPECT_EQ(read_text_file(path), "of an earlier run");
 }
 
-TEST(FlightLog, WritesTheFileOfAFailureHoweverManyThereAre) {
+TEST(FlightLog, WritesAFailureEvenBeyondTheFileLimit) {
   const test_support::TemporaryFolder folder;
   FlightLog log(folder.path("flight.lcmlog"), {});
   for (int i = 0; i < FlightLog::kMostFiles; ++i)
@@ -342,7 +342,7 @@ TEST(FlightLog, WritesTheFileOfAFailureHoweverManyThereAre) {
   EXPECT_THAT(log.write(true), HasSubstr("flight-11.lcmlog"));
 }
 
-TEST_F(RecordingCommands, AFullDiskIsTold) {
+TEST_F(RecordingCommands, FullDiskIsReported) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const auto arguments = [&](std::vector<std::string> more) {
     std::vector<std::string> all{"demo", "--seconds", "0.5", "--scene", scene_, "--record", "/dev/full"};

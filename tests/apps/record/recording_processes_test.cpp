@@ -80,7 +80,7 @@ class RecordingProcesses : public testing::Test {
   std::string scene = test_support::write_pressing_scene(folder);
 };
 
-TEST_F(RecordingProcesses, AServersRunIsRepeatedAndPlayed) {
+TEST_F(RecordingProcesses, ServerRunIsReplayedAndLeadsAnotherServer) {
   {
     const Process hand(glove());
     const ProgramResult server =

@@ -73,7 +73,7 @@ TEST(HtmlReport, APlotHasItsLinesLabelsAndGaps) {
   EXPECT_EQ(plots[2].at("words"), nlohmann::json({"free", "sliding"}));
 }
 
-TEST(HtmlReport, NoNameEndsTheData) {
+TEST(HtmlReport, NamesAreEscapedInPlotData) {
   Report report = small_report();
   report.plots[0].title = "</script><!--<script>";
   report.plots[0].series[0].name = "no UTF-8: \xff.csv";
@@ -91,7 +91,7 @@ TEST(HtmlReport, IsWrittenIntoAFolderThatNeedNotExist) {
   EXPECT_EQ(written.str(), html_report(small_report()));
 }
 
-TEST(HtmlReport, AFolderIsNotNamedAsAPage) {
+TEST(HtmlReport, FolderNamedLikeAPageIsRefused) {
   const test_support::TemporaryFolder folder;
   test_support::expect_bad_input([&] { write_html_report(small_report(), folder.path("x.html")); },
                                  {"x.html", "a folder", "name it '", "/x'"});

@@ -69,7 +69,7 @@ TEST(WordCurve, AWordHoldsUpToTheNextOne) {
   EXPECT_EQ(series.y, (std::vector<double>{2, 1, 1}));
 }
 
-TEST(WordCurve, OfManyWordsTheLongestInEachStretchIsKept) {
+TEST(WordCurve, KeepsTheLongestWordOfEachIntervalOfALongRun) {
   // Two states that alternate 1000 times: for 3 ms and 1 ms, and in the second half the other way round.
   WordCurve curve("part");
   for (int i = 0; i < 2000; ++i) {

@@ -54,13 +54,13 @@ TEST(ForceReason, IsTheMostSerious) {
   EXPECT_TRUE(force_reason(state, 0).is_fading());
 }
 
-TEST(ForceReason, AGloveThatHasEndedIsNoEmergency) {
+TEST(ForceReason, EndedGloveIsNotAnEmergencyStop) {
   devices::HapticState state = holding();
   state.hands[0].glove_reasons.is_stopped = true;
   EXPECT_EQ(to_text(force_reason(state, 0)), "no force: the glove has ended or was stopped for good");
 }
 
-TEST(ForceReason, ASoftReturnAndARateAreNotWorthASentence) {
+TEST(ForceReason, SoftReturnAndRateLimitAreNotReported) {
   devices::HapticState state = holding();
   state.hands[0].reasons.is_returning = true;
   state.hands[0].reasons.rate_limited = true;
@@ -68,7 +68,7 @@ TEST(ForceReason, ASoftReturnAndARateAreNotWorthASentence) {
   EXPECT_EQ(force_reason(state, 0).cause, Cause::kNone);
 }
 
-TEST(ForceReason, OfARecordHasASoftReturnAndTheRate) {
+TEST(ForceReason, RecordedReasonIncludesSoftReturnAndRateLimit) {
   devices::HapticState state = holding();
   EXPECT_EQ(to_text(recorded_reason(state, 0)), "");
   state.hands[0].glove_reasons.rate_limited = true;
@@ -91,7 +91,7 @@ TEST(ForceReason, HasNoCommaInItsText) {
   }
 }
 
-TEST(ForceReason, DiffersInKindButNotForAnAge) {
+TEST(ForceReason, KindIsIndependentOfTheAge) {
   devices::HapticState state = holding();
   state.hands[0].reasons.is_state_old = true;
   state.hands[0].state_age = milliseconds(12);

@@ -27,7 +27,7 @@ int times_told(LinkWatch& watch, devices::LinkStatistics& link, int calls, std::
   return told;
 }
 
-TEST(SecondGlove, IsToldOnce) {
+TEST(SecondGlove, IsReportedOnce) {
   LinkWatch watch(1);
   devices::LinkStatistics link;
   EXPECT_EQ(times_told(watch, link, 100, 100, 0), 0);
@@ -36,7 +36,7 @@ TEST(SecondGlove, IsToldOnce) {
   EXPECT_EQ(times_told(watch, link, 10, 100, 0) + times_told(watch, link, 100, 100, 90), 0);
 }
 
-TEST(SecondGlove, IsNoGloveThatTakesThePlaceOfASilentOne) {
+TEST(SecondGlove, SuccessorOfASilentGloveIsNotReported) {
   LinkWatch watch(1);
   devices::LinkStatistics link;
   int told = times_told(watch, link, 20, 100, 0);
@@ -46,7 +46,7 @@ TEST(SecondGlove, IsNoGloveThatTakesThePlaceOfASilentOne) {
   EXPECT_EQ(told, 0);
 }
 
-TEST(RefusedStates, AreToldOnceForEachReason) {
+TEST(RefusedStates, AreReportedOncePerReason) {
   LinkWatch watch(2);
   devices::LinkStatistics link;
   link.not_finite = 3;
@@ -58,7 +58,7 @@ TEST(RefusedStates, AreToldOnceForEachReason) {
   EXPECT_THAT(watch.news(link), IsEmpty());
 }
 
-TEST(RefusedStates, OfASequenceThatDoesNotRiseAreToldOnceTheyAreMany) {
+TEST(RefusedStates, NonRisingSequencesAreReportedOnlyIfFrequent) {
   LinkWatch watch(2);
   devices::LinkStatistics link;
   for (int i = 0; i < 50; ++i) {

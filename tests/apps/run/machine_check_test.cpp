@@ -35,7 +35,7 @@ class MachineCheck : public testing::Test {
   test_support::TemporaryFolder folder_;
 };
 
-TEST_F(MachineCheck, WhatTheMachineDoesNotTellIsUnknown) {
+TEST_F(MachineCheck, MissingSystemFilesGiveUnknown) {
   for (const char* name :
        {"real-time throttle", "frequency governor", "idle states", "clock source", "virtual machine"})
     EXPECT_EQ(finding(name).verdict, Verdict::kUnknown) << name;
@@ -61,7 +61,7 @@ TEST_F(MachineCheck, TheDeepestIdleStateThatIsNotDisabledCounts) {
   EXPECT_EQ(finding("idle states").verdict, Verdict::kGood);
 }
 
-TEST_F(MachineCheck, AThrottleThatLeavesLittleIsBad) {
+TEST_F(MachineCheck, RealTimeThrottleOf10PercentIsBad) {
   has("proc/sys/kernel/sched_rt_period_us", "1000000");
   has("proc/sys/kernel/sched_rt_runtime_us", "950000");
   EXPECT_EQ(finding("real-time throttle").verdict, Verdict::kGood);
@@ -89,7 +89,7 @@ TEST_F(MachineCheck, ARealTimeKernelIsGood) {
   EXPECT_EQ(finding("kernel").verdict, Verdict::kGood);
 }
 
-TEST(MissingRights, AreOneSentenceWithWhatItMeansAndTheCommandOfTheDoctor) {
+TEST(MissingRights, SentenceNamesConsequenceAndRemedy) {
   EXPECT_EQ(missing_rights(true, true), "");
   const std::string both = missing_rights(false, false);
   EXPECT_THAT(both, HasSubstr("SCHED_FIFO is not granted: any busy program"));

@@ -70,14 +70,14 @@ TEST(MissedGrasp, PrefersTheLongestTouchOfWhatHandsCanHold) {
   EXPECT_TRUE(missed.text().starts_with("the index alone pushed 'mug' from 0.400 to 0.800 s: ")) << missed.text();
 }
 
-TEST(MissedGrasp, TellsOfTouchesOfNothingAndOfWhatNoHandCanHold) {
+TEST(MissedGrasp, SaysIfNothingOrOnlyAFixedObjectWasTouched) {
   EXPECT_EQ(MissedGrasp().text(), "it touched nothing for more than a moment");
   MissedGrasp of_table = on_table();
   touch(of_table, 0.5, 0.7, push_of(kTable, {kPalm}));
   EXPECT_EQ(of_table.text(), "it touched 'table' from 0.500 to 0.700 s, which no hand can hold");
 }
 
-TEST(MissedGrasp, OfAHandThatHasHeldIsNone) {
+TEST(MissedGrasp, TextIsEmptyIfTheHandHasHeld) {
   MissedGrasp missed = on_table();
   touch(missed, 0.0, 0.3, push_of(kMug, {outer(Finger::kThumb)}));
   touch(missed, 0.3, 0.4, push_of(kMug, {outer(Finger::kThumb), outer(Finger::kIndex)}), true);
@@ -86,7 +86,7 @@ TEST(MissedGrasp, OfAHandThatHasHeldIsNone) {
 }
 
 // The haptic loop does not tell what a hand touches.
-TEST(MissedGrasp, NeedsNoObject) {
+TEST(MissedGrasp, UnknownObjectIsCalledSomething) {
   MissedGrasp missed;
   touch(missed, 0.0, 0.2, push_of(-1, {outer(Finger::kThumb)}));
   EXPECT_TRUE(missed.text().starts_with("the thumb alone touched something from 0.000 to 0.200 s: a grasp needs a "))

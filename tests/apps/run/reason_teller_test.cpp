@@ -77,7 +77,7 @@ TEST_F(Teller, TellsEachReasonOfAnInterruption) {
       told_, ElementsAre(HasSubstr("1 no force"), HasSubstr("51 reduced force"), "151 the force returns after 0.15 s"));
 }
 
-TEST_F(Teller, AReasonThatComesAndGoesFloodsNothing) {
+TEST_F(Teller, IntermittentReasonsAreReportedAtMostEvery5Seconds) {
   for (int i = 0; i < 1000; ++i) {
     run(milliseconds(i % 60 + 1), without_switch());
     run(milliseconds(i % 7 + 1), i % 2 == 0 ? ForceReason{} : lagging());
@@ -125,7 +125,7 @@ TEST_F(Teller, TellsInTheOrderOfTime) {
                                  HasSubstr("201 reduced force")));
 }
 
-TEST_F(Teller, WhatFindsNoRoomIsNotForgotten) {
+TEST_F(Teller, ReturnIsReportedAfterTheQueueOverflowed) {
   for (int i = 0; i < 3000; ++i) {
     now_ += milliseconds(1);
     teller_.note(now_, i % 2 == 0 ? without_switch() : lagging());

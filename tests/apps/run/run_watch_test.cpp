@@ -61,7 +61,7 @@ TEST_F(Watch, TellsWhoTakesWhatAndLetsGo) {
                                  "3.000 s: glove 1 takes 'bracket'"));
 }
 
-TEST_F(Watch, AHandThatIsNotThereYetLetsGoOfNothing) {
+TEST_F(Watch, AbsentHandReportsNoRelease) {
   state_.hands[0].part = -1;
   run(milliseconds(1000));
   state_.hands[0].part = 0;
@@ -72,7 +72,7 @@ TEST_F(Watch, AHandThatIsNotThereYetLetsGoOfNothing) {
   EXPECT_THAT(told_, ElementsAre("2.000 s: glove 1 lets go of 'motor'"));
 }
 
-TEST_F(Watch, AHandThatOpensAndClosesFloodsNothing) {
+TEST_F(Watch, RapidGraspsAreReportedAtALimitedRate) {
   for (int i = 0; i < 1000; ++i) {
     state_.hands[0].part = i % 2 - 1;
     run(milliseconds(7));
@@ -109,7 +109,7 @@ TEST_F(Watch, ShowsTheRunInALine) {
             "1.3/12.0 s  1000 Hz, 7 late, contacts 1.2 ms old  glove 1: 5.0 N, motor sliding  glove 2: holds nothing");
 }
 
-TEST_F(Watch, ARateIsThatOfTheLastTicks) {
+TEST_F(Watch, RateIsMeasuredOverTheLastTicks) {
   run(milliseconds(1000));
   state_.time += milliseconds(100);
   run(milliseconds(100));

@@ -104,7 +104,7 @@ TEST(StatusLine, IsCutBetweenCharacters) {
 }
 
 // A program that waited would hang here.
-TEST(StatusLine, ATerminalThatNobodyReadsHoldsNobodyUp) {
+TEST(StatusLine, UnreadTerminalDoesNotBlock) {
   Terminal terminal;
   StatusLine line(terminal.program());
   for (int i = 0; i < 10'000; ++i) {

@@ -11,7 +11,7 @@
 namespace glissade::apps {
 namespace {
 
-TEST(StopSignal, TheFirstIsAWishAndSoAreThoseThatFollowAtOnce) {
+TEST(StopSignal, FirstSignalsOnlyRequestAStop) {
   GTEST_FLAG_SET(death_test_style, "threadsafe");
   const auto stop_gently = [] {
     const StopSignal stop_signal;

@@ -71,7 +71,7 @@ TEST(SessionText, OfARunThatNeverBeganSaysSo) {
             "  ticks                        0: the run ended before the first state of a glove\n");
 }
 
-TEST(SessionText, LeavesTheStagesOfTheSearchToWhoeverAsks) {
+TEST(SessionText, SearchStagesAreShownOnlyOnRequest) {
   Session session = session_of(10);
   session.collision_frames = 4;
   const SessionSummary summary = summary_of(session);
@@ -167,7 +167,7 @@ TEST(MissedGoal, IsExplainedByWhatTheHandDid) {
   EXPECT_THAT(held, HasSubstr("at the end it was unknown, 99.0 mm from where the hand wanted it"));
 }
 
-TEST(SessionCheck, ThatEndsEarlyHasLookedAtTicksOfTheWholeRun) {
+TEST(SessionCheck, EarlyEndHasCheckedTicksOfTheWholeRun) {
   const auto box = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.01, 0.01, 0.01}, 12));
   HapticScene scene;
   scene.placed_obstacles = {{box, Eigen::Isometry3d(Eigen::Translation3d(0.09, 0.0, 0.0))}};
@@ -199,7 +199,7 @@ TEST(SessionCheck, AnOpenPartMayLieOnABodyButNotCutIt) {
   EXPECT_EQ(SessionCheck(samples, scene, {nullptr}).colliding_ticks_of_part(0), 10) << "those that are tilted";
 }
 
-TEST(SessionText, ARunWithoutASearchHasNoMeans) {
+TEST(SessionText, MeansAreNullWithoutASearch) {
   const Session session = session_of(10);
   EXPECT_THAT(to_text(summary_of(session), session, true), Not(HasSubstr("nan")));
   const nlohmann::json json = to_json(summary_of(session), session);
@@ -232,7 +232,7 @@ TEST(SessionReport, SaysIfItShowsTheEndOfTheRunOnly) {
   EXPECT_THAT(text.str(), HasSubstr("<td>the last 0.1 s of 0.3 s</td>"));
 }
 
-TEST(SessionReport, OfARunThatNeverBeganIsAPage) {
+TEST(SessionReport, IsWrittenForARunWithoutTicks) {
   test_support::TemporaryFolder folder;
   const Session session = session_of(0);
   const std::string page =

@@ -51,7 +51,7 @@ TEST(ClearanceCurve, IsTheGapOfABoxAboveAPlate) {
   }
 }
 
-TEST(ClearanceCurve, IsThatOfEachPartAmongTheOthers) {
+TEST(ClearanceCurve, EachPartIsMeasuredToTheOthers) {
   const std::string box = ", movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n";
   const HapticScene scene = scene_of("  - {name: left" + box + "  - {name: right" + box +
                                          "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n",
@@ -99,7 +99,7 @@ constexpr const char* kThings =
     "{position_m: [0, 0.25, 0.05]}}\n"
     "  - {name: far, shape: {type: box}, pose: {position_m: [3, 0, 0]}}\n";
 
-TEST(ClearanceCurve, IsThatOfEachPoseAlone) {
+TEST(ClearanceCurve, EqualsTheClearanceOfEachPoseAlone) {
   HapticScene scene = scene_of(kThings);
   scene.moving.push_back({std::make_shared<const contact::SlidingPart>(
                               std::make_shared<const geometry::TriangleMesh>(scene.parts.front().part_V->tree.mesh())),
@@ -140,7 +140,7 @@ TEST(ClearanceCurve, IsThatOfEachPoseAlone) {
   }
 }
 
-TEST(ClearanceCurve, OfAPartWithContactsIsThatWithoutThem) {
+TEST(ClearanceCurve, IsUnchangedByGivenContacts) {
   const HapticScene scene = scene_of(
       "  - {name: part, movable: true, shape: {type: box, size_x_m: 0.02, size_y_m: 0.02, size_z_m: 0.02}}\n"
       "  - {name: plate, shape: {type: plate, size_x_m: 0.5, size_y_m: 0.5}}\n"

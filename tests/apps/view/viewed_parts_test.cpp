@@ -31,29 +31,29 @@ devices::HapticState state_of_peg_and_ball() {
   return state;
 }
 
-TEST(ViewedParts, AreThoseOfTheServer) {
+TEST(ViewedParts, MatchTheServerWithTheSameParts) {
   EXPECT_EQ(peg_and_ball().doubt(state_of_peg_and_ball()), "");
 }
 
-TEST(ViewedParts, AreNotThoseOfAServerWithAnotherNumber) {
+TEST(ViewedParts, DifferFromAServerWithAnotherPartCount) {
   devices::HapticState state = state_of_peg_and_ball();
   state.part_count = 1;
   EXPECT_EQ(peg_and_ball().doubt(state), "the server moves 1 parts, scene.yaml has 2: is it the server's scene?");
 }
 
-TEST(ViewedParts, AreNotThoseOfAServerThatLeadsThemElsewhere) {
+TEST(ViewedParts, DifferFromAServerWithAnotherReferencePoint) {
   devices::HapticState state = state_of_peg_and_ball();
   state.parts[1].p_Vref.x() = 0.001;
   EXPECT_THAT(peg_and_ball().doubt(state), HasSubstr("another one than 'ball' of scene.yaml"));
 }
 
-TEST(ViewedParts, ArePerhapsThoseOfAServerThatSimulatesNothingYet) {
+TEST(ViewedParts, AreNotDoubtedBeforeTheFirstAnswer) {
   devices::HapticState state = state_of_peg_and_ball();
   state.parts[0] = {};
   EXPECT_EQ(peg_and_ball().doubt(state), "");
 }
 
-TEST(ViewedParts, ArePerhapsThoseOfHandsThatChooseWhereTheyLead) {
+TEST(ViewedParts, AreNotDoubtedIfAHandChoosesTheReferencePoint) {
   devices::HapticState state = state_of_peg_and_ball();
   state.parts[0].p_Vref.x() = 0.03;
   state.hand_count = 1;

@@ -131,7 +131,7 @@ TEST(FeltFingers, FeelTorquesThatChangeNoFasterThanTheDeviceAllows) {
 }
 
 // A wearer who is stronger than the glove goes on into the ball, against the largest torque; the visible hand does not.
-TEST(FeltFingers, OfAStrongWearerGoOnAgainstTheLargestTorque) {
+TEST(FeltFingers, TorquesSaturateForAStrongWearer) {
   Posture fist = bent_hand(0.9);
   for (double& value : fist.values)
     value *= 3.0;

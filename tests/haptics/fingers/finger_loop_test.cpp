@@ -195,7 +195,7 @@ TEST(FingerLoop, CouplesTheBallWhereItIsGripped) {
   EXPECT_LT(watch.from_grip, 0.3 * watch.from_own) << "a contact may have come or gone since the hand took hold";
 }
 
-TEST(FingerLoop, ShowsNothingThatPenetrates) {
+TEST(FingerLoop, VisibleBodiesNeverCollide) {
   const BallAndWall scene;
   for (std::size_t i = 0; i < carry().size(); i += 4)
     ASSERT_FALSE(scene.collides(carry()[i])) << "after " << i << " ms";
@@ -288,7 +288,7 @@ std::vector<devices::LogEvent> recorded_carry(const BallAndWall& scene, int tick
   return std::move(events.all);
 }
 
-TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
+TEST(FingerLoop, ReplayIsBitIdentical) {
   const BallAndWall scene;
   const std::vector<devices::LogEvent> events = recorded_carry(scene, 2500);
   GraspSimulation simulation = scene.simulation(1);
@@ -301,7 +301,7 @@ TEST(FingerLoop, IsRepeatedFromItsRecordingToTheBit) {
 
 // Hands stand still while the parts are within a step; so they must come to move all the same, and the steps to an end.
 // The hand itself has work enough: with a sixteenth of this budget it closes so slowly that it pushes the ball away.
-TEST(FingerLoop, CarriesWithSoLittleWorkThatCallsEndEarly) {
+TEST(FingerLoop, CarriesThePartWithASmallWorkBudget) {
   const BallAndWall scene;
   GraspSimulation simulation = scene.simulation(1, {.work_budget = 30'000}, {.work_budget = 200'000});
   std::vector<devices::SimulatedGlove> gloves{carrier()};
@@ -336,7 +336,7 @@ TEST(FingerLoop, StopsFingersWithinADegreeOfTheVisibleOnes) {
   EXPECT_GE(stopped, 3) << "joints that a degree more would bring into the ball";
 }
 
-TEST(FingerLoop, HoldsNothingThatItsGripAsksFor) {
+TEST(FingerLoop, GripAloneHoldsNothing) {
   const BallAndWall scene;
   GraspSimulation simulation = scene.simulation(1);
   // Far from the ball, the hand closes and opens.

@@ -68,7 +68,7 @@ class PressedPalm : public testing::Test {
   Posture target_;
 };
 
-TEST_F(PressedPalm, TakesNoTorqueFromTheFingers) {
+TEST_F(PressedPalm, OmittedContactsDoNotChangeFingerTorques) {
   const std::vector<LinkContact>& contacts = hand_.clasp.contacts();
   ASSERT_GT(contacts.size(), kMaxFingerRows);
   // Each contact alone: a joint is pushed back by the strongest.

@@ -36,7 +36,7 @@ double stiffness() {
   return finger_stiffness(devices::simulated_glove_descriptor(), kTickPeriod, std::chrono::nanoseconds(0));
 }
 
-TEST(FingertipForces, AreTheTorqueOfTheJointByItsArm) {
+TEST(FingertipForces, AreJointTorqueOverArm) {
   constexpr double kArm_m = 0.02;
   constexpr double kDeeper_rad = 5e-3;
   const std::array<double, kFingers> forces = forces_with({row_with(0.0, kArm_m)}, 0.0, kDeeper_rad);
@@ -44,13 +44,13 @@ TEST(FingertipForces, AreTheTorqueOfTheJointByItsArm) {
   EXPECT_EQ(forces[0], 0.0);
 }
 
-TEST(FingertipForces, HaveNothingOfTheSegmentsBeforeTheLast) {
+TEST(FingertipForces, AreZeroForContactsOfInnerSegments) {
   const std::array<double, kFingers> forces = forces_with({row_with(0.02, 0.0)}, 5e-3, 0.0);
   EXPECT_EQ(forces[kIndexFinger], 0.0);
 }
 
 // The middle segment bears its part of the torque of the joint that turns both.
-TEST(FingertipForces, LeaveToAnotherSegmentWhatItBears) {
+TEST(FingertipForces, ShareTheTorqueWithContactsOfInnerSegments) {
   constexpr double kArm_m = 0.02;
   constexpr double kDeeper_rad = 5e-3;
   const std::vector<FingerRow> rows{row_with(0.015, 0.0), row_with(0.04, kArm_m)};

@@ -115,7 +115,7 @@ TEST(LostHand, OfAShortGapKeepsTheGraspButNotTheTorques) {
 
 // The loss is told after 20 ms. The fingers, which nothing holds back meanwhile, sink into the ball: the hand goes on
 // from where it was, round the ball.
-TEST(LostHand, OfALongGapLetsGoAndGoesOnFromWhereItWas) {
+TEST(LostHand, LongTrackingGapEndsContactsAndResumesFromLastPosture) {
   WornGlove glove = glove_at(before_the_palm());
   GraspAnalysis analysis(*hand_model());
   glove.run(1000);
@@ -132,7 +132,7 @@ TEST(LostHand, OfALongGapLetsGoAndGoesOnFromWhereItWas) {
   EXPECT_NE(glove.command().values().joint_torques, JointValues{});
 }
 
-TEST(LostHand, WaitsWhereTheLastPlaceIsNotFreeEither) {
+TEST(LostHand, WaitsIfTargetAndLastPostureBothCollide) {
   ClaspedHand hand(geometry::make_sphere(kBall_m, 2000), at(0.095, 0.0, -0.3));
   hand.clasp.advance(open_hand());
   ASSERT_EQ(hand.clasp.state(), ClaspState::kClasping);
@@ -147,7 +147,7 @@ TEST(LostHand, WaitsWhereTheLastPlaceIsNotFreeEither) {
   EXPECT_NE(hand.clasp.posture().values, fist.values);
 }
 
-TEST(LostHand, ComesBackWhereItIsFreeWhereverThatIs) {
+TEST(LostHand, ResumesAtAnyFreeTarget) {
   ClaspedHand hand(geometry::make_plate({0.6, 0.6}, 200), at(0.1, 0.0, -0.08));
   hand.clasp.advance(open_hand());
   hand.clasp.lose_track();

@@ -45,7 +45,7 @@ contact::Wrench settle(OneHandForce& contacts, const ContactSet& set, const Isom
   return contacts.update(set, nanoseconds(0), X_WG, kTick_s);
 }
 
-TEST(ContactForce, IsZeroToTheBitWhereNothingIsInTheWay) {
+TEST(ContactForce, IsExactlyZeroInFreeSpace) {
   OneHandForce contacts = at_origin();
   Isometry3d X_WG = at(1e-4, 0.0, -1e-4);
   X_WG.rotate(Eigen::AngleAxisd(1e-3, Vector3d(1.0, 2.0, 3.0).normalized()));
@@ -92,7 +92,7 @@ TEST(ContactForce, FollowsANewContactNoFasterThanTheSlew) {
 }
 
 // The simulation may learn at any moment that a face ends before the ghost.
-TEST(ContactForce, FallsWithinItsTimeWhereAContactIsSuddenlyNotKnownAnyMore) {
+TEST(ContactForce, FallsAtALimitedRateWhenTheRangeOfAContactShrinks) {
   OneHandForce contacts = at_origin();
   const Isometry3d X_WG = at(0.05, 0.0, -15e-3);
   ContactSet beside = floor_below(1e-3);
@@ -110,7 +110,7 @@ TEST(ContactForce, FallsWithinItsTimeWhereAContactIsSuddenlyNotKnownAnyMore) {
 }
 
 /// With the ghost deep behind the floor, far beyond what the device can give.
-TEST(ContactForce, OfAHaltedSimulationIsZeroAtTheSameAgeHoweverDeepAndSoft) {
+TEST(ContactForce, IsZeroAt100MillisecondsAtAnyDepthAndStiffness) {
   for (const double stiffness : {300.0, 1000.0, 4000.0}) {
     for (const double depth : {0.02, 0.06, 0.4}) {
       OneHandForce contacts(Vector3d::Zero(), kRadius, {stiffness, 10.0}, kMaxForce, Isometry3d::Identity());
@@ -130,7 +130,7 @@ TEST(ContactForce, OfAHaltedSimulationIsZeroAtTheSameAgeHoweverDeepAndSoft) {
 }
 
 /// Two contacts hold the part against a rotation, and their forces cancel.
-TEST(ContactForce, ATorqueWithoutAForceIsZeroAtThatAgeToo) {
+TEST(ContactForce, PureTorqueIsZeroAt100Milliseconds) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_count = 2;
@@ -159,7 +159,7 @@ TEST(ContactForce, ReturnsSoftlyAfterAHalt) {
   EXPECT_NEAR(contacts.update(set, nanoseconds(0), at(0.1, 0.0, -0.01), kTick_s).f.z(), 10.0, 1e-9);
 }
 
-TEST(ContactForce, OfAContactThatVanishedIsZeroSoonHoweverDeepAndSoft) {
+TEST(ContactForce, IsZeroWithin75MillisecondsAfterTheContactVanishes) {
   for (const double stiffness : {300.0, 1000.0}) {
     OneHandForce contacts(Vector3d::Zero(), kRadius, {stiffness, 10.0}, kMaxForce, Isometry3d::Identity());
     EXPECT_NEAR(settle(contacts, floor_below(0.0), at(0.0, 0.0, -0.4)).f.z(), kMaxForce, 1e-9);
@@ -204,7 +204,7 @@ TEST(ContactForce, ATrackerThatJumpsDoesNotMakeTheForceJump) {
   EXPECT_LE(wrench.f.z() - before, kStiffness * (contact::kSlew_m + 2.0 * 2e-3) * (1.0 + 1e-9));
 }
 
-TEST(ContactForce, IsASumOfTheNormalsOfBothSetsWhileOneGivesWayToTheOther) {
+TEST(ContactForce, StaysInTheConeOfBothNormalsWhenTheSetChanges) {
   OneHandForce contacts = at_origin();
   settle(contacts, floor_below(0.0), at(2e-3, 0.0, -3e-3));
   ContactSet wall = floor_below(0.0);
@@ -225,7 +225,7 @@ TEST(ContactForce, AnOffsetOfTheGraspIsNotFelt) {
   EXPECT_EQ(settle(contacts, set, at(0.0, 0.0, -0.02)).f, Vector3d::Zero());
 }
 
-TEST(ContactForce, FrictionBelongsToItsNormalForce) {
+TEST(ContactForce, FrictionIsItsRatioTimesTheNormalForce) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].friction_ratio_W = Vector3d(0.3, 0.0, 0.0);
@@ -295,7 +295,7 @@ TEST(ContactForce, AContactThatTheGhostHasLeftNoLongerActs) {
   EXPECT_NEAR(settle(contacts, set, at(4.1e-3, 0.0, -2e-3)).f.z(), 2.0, 1e-9) << "the range begins at the set's ghost";
 }
 
-TEST(ContactForce, ABodyThatMovesGoesOnWhileTheSetGrowsOld) {
+TEST(ContactForce, MotionOfAnApproachingBodyIsExtrapolated) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   settle(contacts, set, at(0.0, 0.0, -2e-3));
@@ -323,7 +323,7 @@ TEST(ContactForce, RowsThatContradictEachOtherLetTheForceFadeAndAreTold) {
   EXPECT_EQ(last, 0.0);
 }
 
-TEST(ContactForce, TheTorqueIsThatOfTheContactsLever) {
+TEST(ContactForce, TorqueIsLeverTimesForce) {
   OneHandForce contacts = at_origin();
   ContactSet set = floor_below(0.0);
   set.row_array[0].r = Vector3d(0.01, 0.0, 0.0);

@@ -70,7 +70,7 @@ double force_error(double contacts_ahead_ms) {
   return greatest;
 }
 
-TEST(ContactSet, MakesTheForceRightFromTheFirstTouchOnWithContactsAhead) {
+TEST(ContactSet, ContactsAheadMakeTheForceExactFromTheFirstTouch) {
   EXPECT_LT(force_error(6.0), 1e-9);
   EXPECT_GT(force_error(0.0), 0.1) << "without them, the force comes as late as the set";
 }

@@ -84,7 +84,7 @@ TEST(FingerForces, PushBackTheJointsThatPressAndNoOthers) {
 }
 
 // The outer joint lifts the finger by 30 mm times 12 mrad, so of 80 mm times 9 mrad a half is left.
-TEST(FingerForces, PushBackAJointOnlyAsFarAsItIsToBlame) {
+TEST(FingerForces, TorqueProportionalToNetPenetration) {
   FingerForces forces = forces_of_simulated_glove();
   const HandAnswer at_outer = touching({below(kOuter, 0.08)});
   const JointValues torques = forces.update(angles(0.009, -0.012), at_outer);
@@ -103,7 +103,7 @@ TEST(FingerForces, AreSharedByTheJointsThatCloseAGapTogether) {
 
 // Springs of several joints at one contact must not be stiffer together than one alone, or they feed an oscillation:
 // their matrix is symmetric, and its greatest eigenvalue that of one spring.
-TEST(FingerForces, OfAContactAreAGradientNoStiffer) {
+TEST(FingerForces, StiffnessMatrixIsSymmetricAndNoStifferThanOneJoint) {
   constexpr std::uint64_t kSeed = 8;
   std::mt19937_64 random(kSeed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -151,7 +151,7 @@ TEST(FingerForces, OfABlockedFingerAreAtTheDevicesLimit) {
   EXPECT_EQ(forces.update(angles(5.0, 0.0), contact)[0], -largest);
 }
 
-TEST(FingerForces, OfAShortArmAreSmall) {
+TEST(FingerForces, TorqueFallsToZeroAtShortArms) {
   FingerForces forces = forces_of_simulated_glove();
   const double full = forces.update(angles(0.004, 0.0), touching({below(kInner, 0.002)}))[0];
   EXPECT_NEAR(full, -forces.stiffness() * 0.004, 1e-12);
@@ -230,7 +230,7 @@ TEST(FingerForces, AllocateNothing) {
 }
 
 // A finger of 0.04 kg m², a hundredth of the mass there with a hundredth of the friction.
-TEST(FingerStiffness, IsWhereTheOscillationOfAHeavyFingerBeginsToGrow) {
+TEST(FingerStiffness, IsTheStabilityLimitOfAHeavyFinger) {
   const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   for (const milliseconds delay : {milliseconds(1), milliseconds(5), milliseconds(20), milliseconds(50)}) {
     const double low = test_support::stiffness_that_grows(100.0 * device.joint_damping, delay) / 100.0;
@@ -372,7 +372,7 @@ double buzz(double stiffness, const devices::DeviceDescriptor& device) {
   return greatest - least;
 }
 
-TEST(FingerStiffness, OfAnglesInStepsIsAsGreatAsTheFrictionCanCalm) {
+TEST(FingerStiffness, IsLimitedByFrictionForCoarseAngles) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.joint_resolution = 5e-3;
   for (const double friction : {0.01, 0.02, 0.05}) {

@@ -119,7 +119,7 @@ TEST_F(FingerHandInKernel, DoesNotFollowAWristThatJumps) {
   EXPECT_LE((ghost(0) - before).norm(), 0.1 * 30.0 * 1e-3 + 1e-12);
 }
 
-TEST_F(FingerHandInKernel, FeelsWhatStopsAJointAndNothingElse) {
+TEST_F(FingerHandInKernel, TorqueOnlyAtTheStoppedJoint) {
   touch_first_joint();
   tick();
   EXPECT_EQ(tick().command.values().joint_torques, JointValues{});
@@ -136,7 +136,7 @@ TEST_F(FingerHandInKernel, FeelsWhatStopsAJointAndNothingElse) {
   EXPECT_EQ(tick().command.values().joint_torques, JointValues{});
 }
 
-TEST_F(FingerHandInKernel, KeepsItsHoldThroughASetWithNumbersThatAreNone) {
+TEST_F(FingerHandInKernel, KeepsItsPartThroughANonFiniteContactSet) {
   touch_first_joint();
   decide(0);
   tick();
@@ -147,7 +147,7 @@ TEST_F(FingerHandInKernel, KeepsItsHoldThroughASetWithNumbersThatAreNone) {
 }
 
 // The simulation would take a gap for the loss of the hand, and begin its clasp anew.
-TEST_F(FingerHandInKernel, IsWhereItWasLastForATenthOfASecondWithoutAngles) {
+TEST_F(FingerHandInKernel, KeepsItsLastAnglesFor100Milliseconds) {
   state_.joint_angles[3] = 0.25;
   tick();
   tick();
@@ -164,7 +164,7 @@ TEST_F(FingerHandInKernel, IsWhereItWasLastForATenthOfASecondWithoutAngles) {
 }
 
 // On a busy machine: too late for a force, but the hand is there, and carries its part.
-TEST_F(FingerHandInKernel, IsFollowedByStatesThatComeLate) {
+TEST_F(FingerHandInKernel, LateStatesStillMoveHandAndPart) {
   using std::chrono::milliseconds;
   tick();
   decide(0);
@@ -209,7 +209,7 @@ TEST_F(FingerHandInKernel, AllocatesNothing) {
   EXPECT_EQ(test_support::allocations_of_this_thread(), allocations);
 }
 
-TEST(FingerHand, IsGivenNoPart) {
+TEST(FingerHand, InitialPartIsRefused) {
   const KernelHand hand{devices::simulated_glove_descriptor(), 0, hand_with_wrist()};
   test_support::expect_bad_input(
       [&] {

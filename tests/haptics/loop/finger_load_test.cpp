@@ -216,7 +216,7 @@ TEST_F(LoadOnFingers, BehindALinkGivesNoMoreEnergyThanItIsAllowed) {
   EXPECT_GT(given_J, 20e-3) << "it has been tried";
 }
 
-TEST_F(LoadOnFingers, AndTheSpringsStayWithinTheDevicesLimitTogether) {
+TEST_F(LoadOnFingers, SumWithSpringsStaysWithinTheDeviceLimit) {
   springs_[kIndex] = -0.45;
   EXPECT_NEAR(settle(pinch(), {100.0, 0.0, 0.0})[kIndex], -0.05, 1e-12);
 }
@@ -231,7 +231,7 @@ TEST_F(LoadOnFingers, IsThereAgainSoonAfterAnAngleThatWasWrong) {
   EXPECT_NEAR(settle(pinch(), {3.0, 0.0, 0.0})[kIndex], full, 1e-9);
 }
 
-TEST_F(LoadOnFingers, DoesNotSufferFromAnglesThatAreNone) {
+TEST_F(LoadOnFingers, StaysFiniteForNaNAngles) {
   settle(pinch(), Vector3d::UnitX());
   angles_[kIndex] = std::numeric_limits<double>::quiet_NaN();
   for (const double torque : tick(pinch(), Vector3d::UnitX()))

@@ -16,7 +16,7 @@ TEST(HandLedger, AHandIsGivenOnlyWhatAnotherHasGivenUp) {
   EXPECT_EQ(ledger.given_up(), 0.0);
 }
 
-TEST(HandLedger, WhatAHandSaysCountsNoFurtherThanItWasAsked) {
+TEST(HandLedger, GivenUpEnergyIsAtMostTheRequest) {
   HandLedger ledger;
   ledger.book(0, {.from_hands = -0.5});
   ledger.collect(0, 2.0);
@@ -25,7 +25,7 @@ TEST(HandLedger, WhatAHandSaysCountsNoFurtherThanItWasAsked) {
   EXPECT_EQ(ledger.given_up(), 0.5) << "the count began anew";
 }
 
-TEST(HandLedger, WhatAMoverGetsBackGoesToNoHand) {
+TEST(HandLedger, EnergyReturnedToAMoverGoesToNoHand) {
   HandLedger ledger;
   EXPECT_EQ(ledger.book(0, {.from_elsewhere = 0.5}), 0.5) << "a mover needs nobody's leave";
   EXPECT_EQ(ledger.book(0, {.from_elsewhere = -0.4}), 0.5 - 0.4);
@@ -34,7 +34,7 @@ TEST(HandLedger, WhatAMoverGetsBackGoesToNoHand) {
   EXPECT_NEAR(ledger.given_up(), 0.1, 1e-12);
 }
 
-TEST(HandLedger, ForgetsWhatNobodyFetches) {
+TEST(HandLedger, UnclaimedEnergyExpires) {
   HandLedger ledger;
   ledger.book(0, {.from_hands = -0.5});
   ledger.collect(0, 0.5);

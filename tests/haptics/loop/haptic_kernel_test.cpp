@@ -62,7 +62,7 @@ TEST_F(Kernel, AHandBesideThePartFeelsTheTorqueOfItsLever) {
 }
 
 // What the hand still feels of a part that it has let go is no stiffer than the part was.
-TEST_F(Kernel, LettingGoOfALongPartKicksNoHand) {
+TEST_F(Kernel, ForceDoesNotRiseOnReleaseOfALongPart) {
   tick(hand_at({0.4, 0.0, 0.5}), floor_below(0.0));
   double last = settle(hand_at({0.4, 0.0, 0.46}), floor_below(0.0)).command.values().f_H_W.z();
   EXPECT_GT(last, 1.0);
@@ -91,7 +91,7 @@ TEST_F(Kernel, NeverExceedsTheDevice) {
   EXPECT_TRUE(last.command.reasons().force_limited);
 }
 
-TEST_F(Kernel, ABrokenStateGivesNoForceAndIsForgotten) {
+TEST_F(Kernel, NonFiniteStateGivesNoForceAndHasNoAftereffect) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   tick(hand_at({nan, 0.0, 0.5}), floor_below(0.0));  // not even grasped by
   settle(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
@@ -202,23 +202,23 @@ class SunkenHand : public Kernel {
   }
 };
 
-TEST_F(SunkenHand, IsLiftedByTheForceThatReturns) {
+TEST_F(SunkenHand, SupplyIsTheWorkOfTheReturningForce) {
   sink();
   EXPECT_NEAR(lift(), 0.5 * (2.0 + 12.0) * 10e-3, 2e-3) << "the work that the force would have taken";
 }
 
-TEST_F(SunkenHand, IsLiftedAsIfTheLastForceHadGoneOnWhileThereWasNoSolution) {
+TEST_F(SunkenHand, SupplyIsTheWorkOfTheLastForceIfRowsHadNoSolution) {
   sink_without_a_solution();
   EXPECT_NEAR(lift(), 2.0 * 10e-3, 2e-3);
 }
 
-TEST_F(SunkenHand, IsOwedNothingAfterItsContactHasEnded) {
+TEST_F(SunkenHand, SupplyIsZeroAfterTheContactHasEnded) {
   sink();
   tick(hand_at({0.0, 0.0, 0.488}), floor_below(1.0));
   EXPECT_EQ(lift(), 0.0);
 }
 
-TEST_F(Kernel, TheGripOfAGloveThatWasStartedAgainCountsAnew) {
+TEST_F(Kernel, GripCountRestartsWithTheGlove) {
   devices::GloveState state = hand_at({0.5, 0.0, 0.5});  // so far from the part that it could not take it again
   state.grip = 3;
   EXPECT_EQ(settle(state, no_answer()).part, 0U);

@@ -75,7 +75,7 @@ TEST(HapticSample, ContactsThatPushStandInTheFrameOfTheirPart) {
   EXPECT_TRUE(sample.contacts[0].n_W.isApprox(Eigen::Vector3f::UnitX()));
 }
 
-TEST(HapticSample, ContactsBeyondTheRoomAreLeftOut) {
+TEST(HapticSample, ContactsBeyondCapacityAreOmitted) {
   ContactSet set;
   set.row_count = static_cast<std::int32_t>(devices::kHapticContacts) + 5;
   for (ContactRow& row : set.row_array)

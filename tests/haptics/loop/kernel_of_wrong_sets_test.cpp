@@ -61,7 +61,7 @@ class BrokenSet : public Kernel {
   Vector3d f_W_ = Vector3d::Zero();  // in the last tick that was checked
 };
 
-TEST_F(BrokenSet, GivesNoForceThatIsNotFiniteAndIsForgotten) {
+TEST_F(BrokenSet, ForceFadesToZeroAndReturnsAfterwards) {
   const Vector3d deep(0.0, 0.0, 0.498);
   tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
   for (const auto& [what, breaks] : ways_to_break()) {
@@ -75,7 +75,7 @@ TEST_F(BrokenSet, GivesNoForceThatIsNotFiniteAndIsForgotten) {
   EXPECT_NEAR(settle(hand_at(deep), floor_below(0.0)).command.values().f_H_W.z(), 2.0, 1e-9);
 }
 
-TEST_F(BrokenSet, DoesNotSpoilAGrasp) {
+TEST_F(BrokenSet, GraspKeepsThePoseOfThePart) {
   const Vector3d aside(0.1, 0.0, 0.5);
   for (const auto& [what, breaks] : ways_to_break()) {
     SCOPED_TRACE(what);

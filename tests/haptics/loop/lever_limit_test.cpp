@@ -19,7 +19,7 @@ TEST(LeverLimit, AtTheHandEachSpringHasItsOwnLimit) {
   EXPECT_DOUBLE_EQ(kAtHand.share_of_damping({1000.0, 5.0}, {4000.0, 5.0}), 0.25);
 }
 
-TEST(LeverLimit, NoSpringIsPassiveEverywhere) {
+TEST(LeverLimit, ZeroStiffnessIsPassiveEverywhere) {
   EXPECT_EQ(kAtHand.share_of({0.0, 0.0}), 1.0);
   EXPECT_EQ((LeverLimit{0.0, 0.0, 0.3}.share_of({0.0, 0.0})), 1.0);
 }
@@ -29,7 +29,7 @@ TEST(LeverLimit, ADeviceThatCannotTurnBearsNoSpringAtADistance) {
   EXPECT_EQ((LeverLimit{0.0, 10.0, 0.1}.share_of({1000.0, 5.0})), 0.0);
 }
 
-TEST(LeverLimit, NothingIsPassiveWhereANumberIsNotFinite) {
+TEST(LeverLimit, ShareIsZeroForNonFiniteNumbers) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ((LeverLimit{2000.0, 10.0, kInfinity}.share_of({1000.0, 5.0})), 0.0);
@@ -37,7 +37,7 @@ TEST(LeverLimit, NothingIsPassiveWhereANumberIsNotFinite) {
   EXPECT_EQ((LeverLimit{2000.0, 10.0, 0.1}.share_of({kNan, 5.0})), 0.0);
 }
 
-TEST(LeverLimit, WhatTheFirstSpringUsesUpLeavesNoDamping) {
+TEST(LeverLimit, SpringAtTheLimitLeavesNoDamping) {
   const LeverLimit limit{2000.0, 10.0, 0.1};
   const double share = limit.share_of({2000.0, 5.0});
   EXPECT_NEAR(limit.share_of_damping({share * 2000.0, share * 5.0}, {100.0, 1.0}), 0.0, 1e-12);

@@ -25,7 +25,7 @@ using std::chrono::milliseconds;
 using std::chrono::nanoseconds;
 using test_support::DelayedWall;
 
-TEST(PassiveStiffness, IsWhereTheOscillationOfAHeavyDeviceBeginsToGrow) {
+TEST(PassiveStiffness, IsTheStabilityLimitOfAHeavyDevice) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   for (const milliseconds delay :
        {milliseconds(0), milliseconds(1), milliseconds(5), milliseconds(20), milliseconds(50)}) {
@@ -35,7 +35,7 @@ TEST(PassiveStiffness, IsWhereTheOscillationOfAHeavyDeviceBeginsToGrow) {
   }
 }
 
-TEST(PassiveStiffness, ACoarseMeasurementNeedsFriction) {
+TEST(PassiveStiffness, IsLimitedByFrictionForCoarsePositions) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.friction = 0.05;
   device.resolution = 1e-4;
@@ -43,7 +43,7 @@ TEST(PassiveStiffness, ACoarseMeasurementNeedsFriction) {
 }
 
 // As if it had the least damping with which its 4000 N/m are passive at 1 kHz: 2 N s/m.
-TEST(PassiveStiffness, ADeviceThatDoesNotTellItsDampingIsSoftBehindALinkToo) {
+TEST(PassiveStiffness, FallsWithLinkDelayIfDampingIsUnknown) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.damping = 0.0;
   const auto stiffness = [&](milliseconds delay) {
@@ -67,7 +67,7 @@ Matrix6d at_device(const Vector3d& lever, double translational, double rotationa
 }
 
 // By the eigenvalues of the whole matrix, relative to the damping of the device.
-TEST(PassiveStiffness, OfAPartAtADistanceTurnsTheDeviceTooAndIsAsGreatAsItMayBe) {
+TEST(PassiveStiffness, IsPassiveAndMaximalForAPartAtADistance) {
   test_support::RandomNumbers random(5);
   int lowered = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -115,7 +115,7 @@ double unrest(DelayedWall& wall) {
   return greatest - least;
 }
 
-TEST(DelayedWall, IsFeltAsSoftAndNeverAsOscillation) {
+TEST(DelayedWall, DelaySoftensTheWallWithoutOscillation) {
   const devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   for (const milliseconds one_way :
        {milliseconds(0), milliseconds(1), milliseconds(5), milliseconds(25), milliseconds(50)}) {
@@ -129,7 +129,7 @@ TEST(DelayedWall, IsFeltAsSoftAndNeverAsOscillation) {
   }
 }
 
-TEST(DelayedWall, OfADeviceThatDoesNotTellItsDampingIsNoOscillationEither) {
+TEST(DelayedWall, UnknownDampingCausesNoOscillation) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   const double untold = std::exchange(device.damping, 0.0);
   for (const milliseconds one_way : {milliseconds(0), milliseconds(5), milliseconds(25)}) {
@@ -166,7 +166,7 @@ Afterwards after(double push, const std::function<void(DelayedWall& wall)>& inte
   return {force, fall};
 }
 
-TEST(DelayedWall, IsAsHardAndAsQuietAfterAnInterruptionAsBefore) {
+TEST(DelayedWall, ForceIsRestoredAndSteadyAfterAnInterruption) {
   for (const double push : {2.0, 5.0, 10.0, 15.0, 19.0}) {
     for (const milliseconds time : {milliseconds(20), milliseconds(100), milliseconds(800)}) {
       SCOPED_TRACE(testing::Message() << push << " N, " << time.count() << " ms");
@@ -181,7 +181,7 @@ TEST(DelayedWall, IsAsHardAndAsQuietAfterAnInterruptionAsBefore) {
 }
 
 /// Far beyond the depth at which the device gives its all, and back.
-TEST(DelayedWall, IsQuietWhenTheHandBacksOffFromFarInside) {
+TEST(DelayedWall, ForceIsSteadyAfterRetreatFromDeepContact) {
   for (const auto& [deep, back] :
        {std::pair(0.13, 0.11), std::pair(0.13, 0.09), std::pair(0.09, 0.06), std::pair(0.23, 0.13)}) {
     DelayedWall wall(devices::simulated_glove_descriptor(), 0.8, 1000.0, milliseconds(0), 20.0);
@@ -210,7 +210,7 @@ TEST(DelayedWall, NeverGivesBackMoreEnergyThanTheHandPutIn) {
 }
 
 // Its damping is told four times too great, so the coupling alone would let it oscillate.
-TEST(DelayedWall, OfADeviceThatIsLateAndUntrueGivesLittleMore) {
+TEST(DelayedWall, EnergyIsBoundedForALateDeviceReportingTooMuchDamping) {
   for (const milliseconds delay : {milliseconds(5), milliseconds(10), milliseconds(20), milliseconds(40)}) {
     devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
     device.delay = delay;

@@ -67,7 +67,7 @@ TEST(PatchMaker, PartsThatPressEachOtherHaveOnePatchBetweenThem) {
   EXPECT_EQ(alone.patches[0].part, 1);
 }
 
-TEST(PatchMaker, PatchesBeyondTheRoomAreCounted) {
+TEST(PatchMaker, PatchesBeyondCapacityAreCounted) {
   // Four cubes, each in a corner of three blocks.
   std::vector<contact::Obstacle> niches;
   std::vector<contact::HeldPart> parts;

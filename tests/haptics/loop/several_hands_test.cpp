@@ -372,7 +372,7 @@ devices::SimulatedGlove wandering_hand(std::uint64_t seed, std::chrono::seconds 
 
 /// Grasps, releases and changes of hands at any moment: nothing collides, nothing jumps, and a hand that holds nothing
 /// soon feels nothing. Ten minutes: GLISSADE_HAND_SECONDS=600.
-TEST_F(SeveralHands, MayGraspAndReleaseAtAnyMoment) {
+TEST_F(SeveralHands, RandomGraspsAndReleasesCauseNoCollisionOrForceJump) {
   const char* const wish = std::getenv("GLISSADE_HAND_SECONDS");
   const int seconds = wish != nullptr ? std::atoi(wish) : 10;
   constexpr std::uint64_t kSeed = 3;

@@ -120,21 +120,21 @@ class Recording : public testing::Test {
   std::int64_t answers_ = 0;
 };
 
-TEST_F(Recording, IsRepeatedToTheBit) {
+TEST_F(Recording, ReplayIsBitIdentical) {
   EXPECT_EQ(fault(path_), "");
   EXPECT_EQ(ticks_, kRecordedTicks);
   EXPECT_EQ(answers_, kRecordedTicks);
 }
 
-TEST_F(Recording, IsRepeatedToTheBitWithASearchThread) {
+TEST_F(Recording, ReplayIsBitIdenticalWithASearchThread) {
   EXPECT_EQ(fault(path_, {.has_search_thread = true}), "");
 }
 
-TEST_F(Recording, IsRepeatedToTheBitWithEveryInstructionSet) {
+TEST_F(Recording, ReplayIsBitIdenticalWithEveryInstructionSet) {
   test_support::with_every_instruction_set([&](std::string_view name) { EXPECT_EQ(fault(path_), "") << name; });
 }
 
-TEST_F(Recording, OfAServerIsRepeatedToTheBit) {
+TEST_F(Recording, ReplayOfAServerIsBitIdentical) {
   const std::string path = folder_.path("server.lcmlog");
   const contact::SlidingRules rules = contact::real_time_rules();
   LogRecorder recorder(path, recorded_head());
@@ -167,11 +167,11 @@ TEST_F(Recording, WithoutItsBeginningIsRefusedInASentence) {
   EXPECT_EQ(ticks_, 0);
 }
 
-TEST_F(Recording, TellsThatTheRulesWereOthers) {
+TEST_F(Recording, ReplayWithOtherRulesIsDetected) {
   EXPECT_NE(fault(path_, {.friction = {.at_rest = 0.3, .sliding = 0.3}}), "");
 }
 
-TEST_F(Recording, OfAHandHasWhatOtherProgramsRead) {
+TEST_F(Recording, HasTheLcmMessagesOfEveryTick) {
   devices::EventLogReader log(path_);
   std::int64_t states = 0;
   std::int64_t haptic_states = 0;
@@ -268,7 +268,7 @@ TEST_F(Recording, WithTwoChangesTellsTheFirst) {
   EXPECT_EQ(ticks_, 300);
 }
 
-TEST_F(Recording, OfTheLastSecondsHasABound) {
+TEST_F(Recording, FlightRecordingHasABoundedSize) {
   constexpr std::size_t kMost = 1 << 20;
   FlightRecorder recorder(recorded_head(), kMost);
   record(recorder);
