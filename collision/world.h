@@ -116,7 +116,7 @@ class World {
   /// of removed objects if no other owner holds them. The next call overwrites the result.
   const WorldChanges& take_changes();
 
-  /// The objects by slot, as of the last take; `capacity` entries.
+  /// The objects by slot, as of the last call of `take`; `capacity` entries.
   std::span<const WorldObject> objects() const;
 
   /// Whether the pair is enabled, as of the last take. Both slots must have objects. Cost O(1).

@@ -59,7 +59,7 @@ struct Contact {
   Eigen::Vector3d friction_W = Eigen::Vector3d::Zero();  ///< newtons on the part, perpendicular to n_W
   /// The gap (metres) at which the contact stops the part. This is the margin of the two bodies, or less if there is
   /// not enough room. With the paper's method, `margin` is the largest gap of a reported contact: 2 µm, i.e. 4 times
-  /// the final width of a bisection. Contacts of the paper's method stop the part at half the final width.
+  /// the final width of a bisection. With the paper's method, contacts stop the part at half the final width.
   double margin = 0.0;
   /// The contact is valid until the part has moved by this distance (metres) across n_W. After a longer motion, the
   /// contact point may have left one of the two features. `range` is infinite if no rim of the features is near. An

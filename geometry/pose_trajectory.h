@@ -50,7 +50,7 @@ class PoseTrajectory {
   /// Real-time safe; O(log rows).
   FrameVelocity velocity_at(std::chrono::nanoseconds time) const noexcept;
 
-  /// A trajectory with the same path and the same first time. All later times are scaled so that the path takes
+  /// A trajectory with the same path and start time. All later times are scaled so that the path takes
   /// `duration`. Throws std::invalid_argument if `duration` is not positive, or is so short that two rows would have
   /// the same time in nanoseconds.
   PoseTrajectory time_scaled(std::chrono::nanoseconds duration) const;

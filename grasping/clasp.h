@@ -32,8 +32,8 @@ struct ClaspRules {
   /// The gap (metres) at which contacts stop a link.
   double margin = 20e-6;
   /// A link touches an object if their distance is less than `touching` (metres, at most 0.2 mm) and the link's target
-  /// lies deeper. For an obstacle with a greater margin of its own, `touching` is increased by the difference of the
-  /// margins.
+  /// lies deeper in the object than the link. For an obstacle with a greater margin of its own, `touching` is increased
+  /// by the difference of the margins.
   double touching = 0.1e-3;
   /// The greatest number of steps in a call. Each step is proven free. With more steps, the chain follows a fast hand
   /// more closely.
@@ -102,9 +102,9 @@ class Clasp {
   const Posture& posture() const;
   /// The last target, within the limits of the chain.
   const Posture& target() const;
-  /// For each link, by its number in the chain, whether the link touches. The link itself must be at an object and have
-  /// a deeper target. Contacts of links that hang on this link do not count. Unlike in the paper, the order in which
-  /// joints were stopped does not matter.
+  /// For each link, by its number in the chain, whether the link touches. The link itself must touch an object, and its
+  /// target must lie deeper in this object. Contacts of links that hang on this link do not count. Unlike in the paper,
+  /// the order in which joints were stopped does not matter.
   std::span<const char> touching() const;
   /// The contacts of all links that touch.
   const std::vector<LinkContact>& contacts() const;

@@ -77,7 +77,8 @@ class FingerForces {
   FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
                std::chrono::nanoseconds period = kTickPeriod);
 
-  /// Limits the stiffness from now on by the delay of the link, as measured at the glove (`GloveState::link_delay`).
+  /// From now on, limits the stiffness according to the delay of the link, measured at the glove
+  /// (`GloveState::link_delay`).
   void set_link_delay(std::chrono::nanoseconds delay) noexcept;
 
   /// The present stiffness, Nm/rad.
