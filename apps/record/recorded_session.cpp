@@ -83,6 +83,11 @@ RecordedSession session_of(const devices::LogEvent& event) {
   return session;
 }
 
+std::invalid_argument unreadable(const LogFile& log, const std::string& channel) {
+  return std::invalid_argument(log.path() + ": the event on " + channel +
+                               " cannot be read: its bytes were changed, or another version wrote it");
+}
+
 }  // namespace
 
 std::string recorded_path(const std::string& scene_file) {
@@ -104,13 +109,13 @@ RecordedSession read_session(const devices::LogEvent& event, LogFile& log) {
   try {
     session = session_of(event);
   } catch (const std::exception&) {
-    throw std::invalid_argument(log.path() + ": the event on " + kHapticSessionChannel +
-                                " cannot be read: its bytes were changed, or another version wrote it");
+    throw unreadable(log, kHapticSessionChannel);
   }
   for (RecordedHand& hand : session.hands) {
     const std::optional<devices::LogEvent> announcement = log.next();
     const std::optional<devices::GloveInfo> glove = announcement ? devices::glove_info_of(*announcement) : std::nullopt;
     if (!announcement && !log.damage().empty()) throw std::runtime_error(log.damage());
+    if (announcement && !glove && announcement->channel == "GLOVE_INFO") throw unreadable(log, announcement->channel);
     if (!glove || glove->device != hand.glove.device) {
       throw std::invalid_argument(log.path() + ": the announcement of glove " + std::to_string(hand.glove.device) +
                                   " is missing at the beginning of the run");

@@ -120,6 +120,12 @@ TEST_F(RecordingCommands, AFlippedBitIsFoundOut) {
   expect_fails(1, {"replay", changed(all), "--json"}, {"changed.lcmlog", "the tick after 9 cannot be read"});
 }
 
+TEST_F(RecordingCommands, AnnouncementOfAnotherVersionIsRefused) {
+  std::string all = bytes();
+  all[all.find("GLOVE_INFO") + 10] ^= 1;  // the first byte of the message, in its type's fingerprint
+  expect_refused({"replay", changed(all)}, {"changed.lcmlog: the event on GLOVE_INFO cannot be read"});
+}
+
 TEST_F(RecordingCommands, AForeignFileIsRefused) {
   expect_refused({"replay", scene_}, {"scene.yaml", "is no LCM event log"});
   expect_refused({"replay", folder_.path("nothing.lcmlog")}, {"nothing.lcmlog: there is no such file"});
