@@ -99,7 +99,7 @@ TEST(BroadPhase, ASuccessorInTheSameSlotBeginsItsPairsAnew) {
   EXPECT_THAT(broad_phase.began(), IsEmpty());
 }
 
-TEST(BroadPhase, TremblingChangesNoPair) {
+TEST(BroadPhase, JitterDoesNotChangePairs) {
   BroadPhase broad_phase(2);
   broad_phase.set(0, unit_cube(0.0));
   broad_phase.set(1, unit_cube(1.0));
@@ -112,7 +112,7 @@ TEST(BroadPhase, TremblingChangesNoPair) {
   }
 }
 
-TEST(BroadPhase, ALeapIsNotTakenForASpeed) {
+TEST(BroadPhase, JumpIsNotExtrapolatedAsAVelocity) {
   BroadPhase broad_phase(2);
   broad_phase.set(0, unit_cube(0.0));
   broad_phase.set(1, unit_cube(110.0));
@@ -132,7 +132,7 @@ TEST(BroadPhase, AnObjectThatShrinksLetsGoOfWhatIsFarAway) {
   EXPECT_EQ(broad_phase.pair_count(), 0U);
 }
 
-TEST(BroadPhase, RefusesWhatIsNoMargin) {
+TEST(BroadPhase, RefusesInvalidCapacitiesAndMargins) {
   EXPECT_THROW(BroadPhase(0), std::invalid_argument);
   EXPECT_THROW(BroadPhase(1, -1e-3), std::invalid_argument);
   EXPECT_THROW(BroadPhase(1, std::numeric_limits<double>::quiet_NaN()), std::invalid_argument);
@@ -222,7 +222,7 @@ class MovingBoxes {
   std::set<SlotPair> pairs_;
 };
 
-TEST(BroadPhase, MissesNoPairWhateverHappens) {
+TEST(BroadPhase, MatchesBruteForceUnderRandomChanges) {
   RecordProperty("seed", static_cast<int>(kBroadPhaseSeed));
   for (const double margin : {0.0, 0.05}) {
     MovingBoxes boxes(kBroadPhaseSeed, margin);

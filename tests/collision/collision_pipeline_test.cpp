@@ -65,7 +65,7 @@ TEST_F(Pipeline, TellsWhichObjectsMeet) {
       << "nobody has moved";
 }
 
-TEST_F(Pipeline, ForgetsWhatIsRemovedAndKnowsItsSuccessorForAnother) {
+TEST_F(Pipeline, ReusedSlotReportsTheNewObject) {
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId a = add(at(0.0));
   const ObjectId b = add(at(0.5));
@@ -98,7 +98,7 @@ TEST_F(Pipeline, LeavesOutPairsOfNoInterest) {
               ElementsAre(ObjectPair{finger, next_finger}, ObjectPair{finger, part}, ObjectPair{next_finger, part}));
 }
 
-TEST_F(Pipeline, ChargesAFrameForWhatHasMovedOnly) {
+TEST_F(Pipeline, OnlyMovedObjectsCostWork) {
   CollisionPipeline pipeline(world_, clock_);
   for (int i = 0; i < 20; ++i)
     add(at(0.9 * i));
@@ -146,7 +146,7 @@ TEST_F(Pipeline, LooksAtASeparatedPairAgainOnlyWhenItsGapMayBeUsedUp) {
 }
 
 // The tip moves as far as turning can take any point.
-TEST_F(Pipeline, KnowsWhenTheTipOfARodComesStraightOn) {
+TEST_F(Pipeline, DetectsContactOfARotatingRodTip) {
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId box = add(at(1.45, 0.55));  // from (0.95, 0.05) on
   const ObjectId rod = add(Shape(geometry::make_box({2.0, 0.001, 0.001}, 48)), at(0.0));
@@ -161,7 +161,7 @@ TEST_F(Pipeline, KnowsWhenTheTipOfARodComesStraightOn) {
 }
 
 // Lengths in the frame of an object are not quite those in the world, which counts over a large distance.
-TEST_F(Pipeline, KnowsWhatIsWithinALargeDistance) {
+TEST_F(Pipeline, LargeQueryDistanceMatchesTheSingleQuery) {
   Isometry3d X_WA = at(0.0);
   X_WA.linear()(0, 0) = 1.0 - 4.9e-13;  // as good as a rotation
   int meeting = 0;
@@ -183,7 +183,7 @@ TEST_F(Pipeline, KnowsWhatIsWithinALargeDistance) {
   EXPECT_LT(meeting, 200);
 }
 
-TEST_F(Pipeline, KnowsWhenTurningUsesUpAGap) {
+TEST_F(Pipeline, DetectsContactByRotationInPlace) {
   CollisionPipeline pipeline(world_, clock_);
   const ObjectId a = add(at(0.0));
   const ObjectId b = add(at(1.2));
@@ -219,7 +219,7 @@ TEST_F(Pipeline, TakesTheNearestRotationForAMatrixThatIsNotQuiteOne) {
 }
 
 // The sum of all motions is then so large that a short step is less than its last digit.
-TEST_F(Pipeline, LosesNoShortStepAfterALongWay) {
+TEST_F(Pipeline, ShortStepsAfterLargeMotionsAreNotLost) {
   CollisionPipeline pipeline(world_, clock_);
   add(at(0.0));
   const ObjectId b = add(at(1.001));
@@ -235,7 +235,7 @@ TEST_F(Pipeline, LosesNoShortStepAfterALongWay) {
   }
 }
 
-TEST_F(Pipeline, KnowsBallsThatTouchFarFromTheOrigin) {
+TEST_F(Pipeline, TouchingBallsFarFromTheOriginMatchTheSingleQuery) {
   // Their centres are rounded on another way than the poses that queries see.
   const Shape ball(geometry::transformed(geometry::make_sphere(0.01, 200), at(3.0)));
   QueryWorkspace workspace;
@@ -278,7 +278,7 @@ TEST_F(Pipeline, GivesTheTrianglesThatMeet) {
   }
 }
 
-TEST_F(Pipeline, GivesTheTrianglesWithinADistanceThatMayDifferFromFrameToFrame) {
+TEST_F(Pipeline, DistanceOfClosePairsMayChangePerFrame) {
   CollisionPipeline pipeline(world_, clock_, {.query = PairQuery::kClosePairs, .greatest_distance = 0.2, .threads = 1});
   add(at(0.0));
   add(at(1.15));
@@ -294,7 +294,7 @@ TEST_F(Pipeline, GivesTheTrianglesWithinADistanceThatMayDifferFromFrameToFrame) 
   EXPECT_THAT(pipeline.step(0.2).meeting.size(), 1U);
 }
 
-TEST_F(Pipeline, IsAfterSelectedTrianglesWhereBothObjectsHaveASelection) {
+TEST_F(Pipeline, SelectionsApplyOnlyIfBothObjectsHaveOne) {
   CollisionPipeline pipeline(world_, clock_, {.query = PairQuery::kClosePairs, .greatest_distance = 0.2, .threads = 1});
   const geometry::TriangleMesh& mesh = box_.tree->mesh();
   const auto faces_up = [&](std::int32_t t) {  // on the side that the others, to the left and right, are not near
@@ -328,7 +328,7 @@ TEST_F(Pipeline, NeedsNoHulls) {
   EXPECT_THAT(pipeline.step().meeting, ElementsAre(ObjectPair{a, b}));
 }
 
-TEST_F(Pipeline, SaysWhereTheTimeWent) {
+TEST_F(Pipeline, ReportsTheTimeOfPosesAndSumsReports) {
   realtime::SimulatedClock clock;
   clock.advance(std::chrono::seconds(7));
   CollisionPipeline pipeline(world_, clock);
@@ -341,7 +341,7 @@ TEST_F(Pipeline, SaysWhereTheTimeWent) {
   EXPECT_EQ(sum.total, 2 * result.report.total);
 }
 
-TEST_F(Pipeline, RefusesWhatMakesNoSense) {
+TEST_F(Pipeline, RefusesInvalidOptionsAndDistances) {
   EXPECT_THROW(CollisionPipeline(world_, clock_, {.greatest_distance = -1.0}), std::invalid_argument);
   EXPECT_THROW(CollisionPipeline(world_, clock_, {.greatest_distance = std::nan("")}), std::invalid_argument);
   EXPECT_THROW(CollisionPipeline(world_, clock_, {.threads = -1}), std::invalid_argument);

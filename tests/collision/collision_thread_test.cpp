@@ -76,7 +76,7 @@ TEST(CollisionThread, HasReadersThatDoNotDependOnEachOther) {
   EXPECT_THROW(collision.reader(2), std::out_of_range);
 }
 
-TEST(CollisionThread, RefusesWhatMakesNoSense) {
+TEST(CollisionThread, RefusesInvalidOptions) {
   World world(8);
   realtime::SteadyClock clock;
   EXPECT_THROW(CollisionThread(world, clock, {.distance = 0.1}), std::invalid_argument);

@@ -84,7 +84,7 @@ class ConvexHulls : public ::testing::Test {
   RandomNumbers random_{kConvexHullSeed};
 };
 
-TEST_F(ConvexHulls, ReachAsFarAsTheirPointsAtEveryScaleAndPlace) {
+TEST_F(ConvexHulls, SupportMatchesThePointsAtEveryScaleAndOffset) {
   for (const double scale : {1e-6, 1.0, 1e3}) {
     for (const double offset : {0.0, 1.0, 1e6}) {
       std::vector<Vector3d> points = cloud(random_, 300);
@@ -125,7 +125,7 @@ TEST_F(ConvexHulls, OfAPolygonASegmentAndAPoint) {
   expect_connected(ConvexHull(polygon));
 }
 
-TEST_F(ConvexHulls, OfNearlyFlatPointsMissNone) {
+TEST_F(ConvexHulls, NearlyFlatPointSetsLoseNoPoint) {
   for (const double thickness : {1e-16, 1e-14, 1e-12, 1e-11, 1e-10, 1e-9, 1e-7, 1e-4}) {
     std::vector<Vector3d> points = cloud(random_, 200);
     const Eigen::Matrix3d R = random_.rotation();
@@ -136,7 +136,7 @@ TEST_F(ConvexHulls, OfNearlyFlatPointsMissNone) {
 }
 
 // Among corners within a millionth of each other climbing sees least of where up is.
-TEST_F(ConvexHulls, OfClustersAreClimbedAsFarAsTheyPromise) {
+TEST_F(ConvexHulls, HillClimbingErrorIsBoundedForClusteredPoints) {
   for (const double spread : {1e-13, 1e-11, 1e-9, 1e-6, 1e-3}) {
     std::vector<Vector3d> points;
     for (const Vector3d& place : cloud(random_, 8)) {

@@ -256,7 +256,7 @@ INSTANTIATE_TEST_SUITE_P(Pairs, DopQueryOracle,
                          [](const auto& instance) { return instance.param.name; });
 
 // The bracket lies flush on the panel and touches a bead: hundreds of coplanar and touching pairs in one pose.
-TEST(DopQueryOracleSeat, DecidesTheSeatedMotor) {
+TEST(DopQueryOracleSeat, MatchesCgalForAFlushMotor) {
   const Duel duel({"PanelMotor", inner_panel, motor});
   QueryWorkspace workspace;
   std::vector<TrianglePair> pairs;

@@ -76,7 +76,7 @@ TEST(DopQuery, RefusesTreesOfDifferentOptions) {
   }
 }
 
-TEST(DopQuery, RefusesPosesThatAreNone) {
+TEST(DopQuery, RefusesInvalidPoses) {
   const DopTree tree = torus_tree();
   for (const Query& query : all_queries()) {
     SCOPED_TRACE(query.name);
@@ -105,7 +105,7 @@ TEST(DopQuery, RefusesPosesThatAreNone) {
   }
 }
 
-TEST(DopQuery, RefusesDistancesThatAreNone) {
+TEST(DopQuery, RefusesInvalidDistances) {
   const DopTree tree = torus_tree();
   Isometry3d X_AB = Isometry3d::Identity();
   for (const double shift : {0.0, 100.0}) {

@@ -71,7 +71,7 @@ TEST_P(EveryK, WeightsOfTheExtremalVertexExpressADirectionAndAreNotNegative) {
 
 INSTANTIATE_TEST_SUITE_P(K, EveryK, ::testing::Values(6, 14, 18, 24, 26));
 
-TEST(DopDirections, OtherNumbersAreRefused) {
+TEST(DopDirections, UnsupportedKIsRefused) {
   EXPECT_THROW(dop_directions(8), std::invalid_argument);
 }
 

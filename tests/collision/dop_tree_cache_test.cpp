@@ -144,7 +144,7 @@ TEST_F(TreeCache, MissesAFileThatIsNotThere) {
   expect_rejected(CacheState::kMissing, "missing");
 }
 
-TEST_F(TreeCache, TakesNothingElseForATree) {
+TEST_F(TreeCache, RejectsFilesThatAreNoCachedTree) {
   std::filesystem::remove(path);
   std::filesystem::create_directory(path);
   expect_rejected(CacheState::kDamaged, "not a regular file");
@@ -252,7 +252,7 @@ TEST(TreeShapeCode, DecodesOneTreeOfAllTriangles) {
   EXPECT_EQ(shape.leaves[2].triangle, (std::array<std::int32_t, 4>{0, 3, kNoTriangle, kNoTriangle}));
 }
 
-TEST(TreeShapeCode, RefusesWhatIsNoTree) {
+TEST(TreeShapeCode, RefusesInvalidCodes) {
   const auto expect_refused = [](const std::string& code, const std::string& reason, std::size_t triangles = 5) {
     test_support::expect_bad_input([&] { decode_shape(code, triangles); }, {reason});
   };
@@ -369,7 +369,7 @@ TEST_F(TreeCache, RefusesMeshesAsTheTreeDoes) {
 }
 
 // Vertices of whole numbers, so that every machine builds the same.
-TEST(TreeCacheVersion, CountsWaysToBuild) {
+TEST(TreeCacheVersion, BuiltTreeIsUnchangedInThisVersion) {
   std::mt19937 random(7);
   auto mesh = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < 900; ++i) {

@@ -103,7 +103,7 @@ TEST(DopTreeRefit, AnswersStayExactWhateverTheVerticesDo) {
   }
 }
 
-TEST(DopTreeRefit, EnclosesWhereverARandomWalkLeads) {
+TEST(DopTreeRefit, QueriesAreExactOverARandomWalkOfVertices) {
   const auto plate = shared(geometry::make_plate({0.4, 0.3}, 200));
   DopTree tree(plate);
   const DopTree ball(shared(geometry::make_sphere(0.1, 100)));

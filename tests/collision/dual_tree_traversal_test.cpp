@@ -115,7 +115,7 @@ double gap_along(const Vector3d& n_A, const geometry::TrianglePoints& of_A, cons
   return heights(of_B).first - heights(of_A).second;
 }
 
-TEST_F(NearVisit, OfOneWhoTakesNothingShowsThePairsWithinTheDistance) {
+TEST_F(NearVisit, VisitorThatAcceptsNothingSeesAllNearPairs) {
   std::size_t measured = 0;
   std::map<Separator, int> separated;
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
@@ -168,7 +168,7 @@ TEST_F(NearVisit, OfOneWhoTakesNothingShowsThePairsWithinTheDistance) {
     EXPECT_GT(separated[separator], 2);
 }
 
-TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
+TEST_F(NearVisit, EachNearPairIsVisitedOnceOrIsInOneAcceptedNodePair) {
   std::size_t taken = 0;
   std::size_t seen = 0;
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
@@ -190,7 +190,7 @@ TEST_F(NearVisit, ShowsEveryPairOnceOrLeavesItToWhoTookWhatHoldsIt) {
   EXPECT_GT(seen, 20U);
 }
 
-TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
+TEST_F(NearVisit, SelectedPairsBelowAcceptedNodesAreVisitedOnce) {
   std::size_t below = 0;
   for (int trial = 0; trial < test_support::affordable(300); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
@@ -225,7 +225,7 @@ TEST_F(NearVisit, ShowsSelectedPairsBelowWhatWasTakenOnce) {
 }
 
 // One pair alone is measured by scalar code, many by vector code.
-TEST_F(NearVisit, TellsNoDirectionOfTrianglesThatCross) {
+TEST_F(NearVisit, CrossingTrianglesHaveZeroDirectionAndGap) {
   const geometry::TriangleMesh lying{{{-1.0, -1.0, 0.0}, {1.0, -1.0, 0.0}, {0.1, 1.3, 0.0}}, {{0, 1, 2}}};
   const geometry::TriangleMesh standing{{{0.1, -0.3, -0.7}, {0.2, -0.2, 0.9}, {0.3, 0.4, 0.8}}, {{0, 1, 2}}};
   for (const int copies : {1, 4}) {
@@ -257,7 +257,7 @@ TEST_F(NearVisit, HasUnitDirectionsAtPosesThatAreNotQuiteRigid) {
   }
 }
 
-TEST_F(NearVisit, RefusesDistancesThatAreNone) {
+TEST_F(NearVisit, RefusesInvalidDistances) {
   const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 20)));
   Taker visitor(0);
   for (const NearDistances& distances : {NearDistances{-1.0, 0.1}, NearDistances{0.1, -1.0},
@@ -267,7 +267,7 @@ TEST_F(NearVisit, RefusesDistancesThatAreNone) {
   }
 }
 
-TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {
+TEST_F(NearVisit, AcceptedNodePairsAreNotOpened) {
   const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 2000)));
   Taker all(16);
   traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 1e-3)), {2e-3, 2e-3}, workspace_, all);
@@ -276,7 +276,7 @@ TEST_F(NearVisit, LooksAtNothingBelowWhatWasTaken) {
   EXPECT_EQ(workspace_.counters().triangle_tests, 0);
 }
 
-TEST_F(NearVisit, OfBodiesThatAreFarAsksNothing) {
+TEST_F(NearVisit, DistantBodiesCauseNoVisits) {
   const DopTree plate(std::make_shared<geometry::TriangleMesh>(geometry::make_plate({1.0, 1.0}, 200)));
   Taker visitor(8);
   traverse_near(plate, plate, Isometry3d(Eigen::Translation3d(0.0, 0.0, 3.0)), {0.5, 0.5}, workspace_, visitor);

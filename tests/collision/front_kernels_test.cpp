@@ -12,7 +12,7 @@ namespace {
 
 class FrontKernels : public Kernels {};
 
-TEST_P(FrontKernels, FindsWhatTheClockHasReachedInOrder) {
+TEST_P(FrontKernels, FindsExpiredEntriesInOrder) {
   for (int trial = 0; trial < 200; ++trial) {
     const float clock = random_.chance(0.5) ? 0.5F : 1e30F;
     std::vector<float> expiry(kFrontPadding * static_cast<std::size_t>(random_.integer(0, 9)));

@@ -44,7 +44,7 @@ TEST(InterestMatrix, IgnoresSinglePairsBothWays) {
   EXPECT_TRUE(matrix.is_enabled(9, 0, 4, 0));
 }
 
-TEST(InterestMatrix, APairIsAttendedToOnlyIfItsGroupsAre) {
+TEST(InterestMatrix, EnabledPairOfDisabledGroupsStaysDisabled) {
   InterestMatrix matrix;
   matrix.disable_groups(1, 2);
   matrix.enable_pair(0, 1);

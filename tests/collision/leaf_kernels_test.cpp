@@ -62,7 +62,7 @@ bool has(PairMask pairs, std::size_t pair) {
   return (pairs >> pair & 1U) != 0;
 }
 
-TEST_P(LeafKernelsTest, NormalsAndEdgesSeparateOnlyWhatIsFurtherApart) {
+TEST_P(LeafKernelsTest, GapsByNormalsAndEdgesNeverExceedTheDistance) {
   for (const Setting& s : kSettings) {
     int by_normals = 0;
     int by_edges = 0;

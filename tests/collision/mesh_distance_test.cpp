@@ -13,7 +13,7 @@ namespace {
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
-TEST(MeshDistance, IsThatOfSpheresHoweverFarApart) {
+TEST(MeshDistance, MatchesSpheresAtAnyDistance) {
   const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 5'000));
   const DopTree tree(sphere);
   QueryWorkspace workspace;
@@ -62,7 +62,7 @@ TEST(MeshDistance, AgreesWithEveryPairOfTriangles) {
 }
 
 // Of meshes far apart nearly all nodes were opened as long as their bounds got looser with the distance.
-TEST(MeshDistance, CostsNoMoreFarApart) {
+TEST(MeshDistance, CostIndependentOfDistance) {
   const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 20'000));
   const DopTree tree(sphere);
   QueryWorkspace workspace;
@@ -90,7 +90,7 @@ TEST(MeshDistance, NamesTheFirstOfPairsThatAreEquallyNear) {
   EXPECT_EQ(found.nearest->triangles, pairs.front().triangles);
 }
 
-TEST(MeshDistance, IsTheSameFromWhereverItBeginsButCheaperWhereTheLastOneEnded) {
+TEST(MeshDistance, WarmStartKeepsTheResultAtLowerCost) {
   const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 5'000));
   const DopTree tree(sphere);
   QueryWorkspace fresh;

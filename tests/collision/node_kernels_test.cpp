@@ -170,7 +170,7 @@ TEST_P(Kernels, TestFindsTheLeastOverlapOfEverySlab) {
   }
 }
 
-TEST_P(Kernels, TheDeepestPairOverlapsMostButForSixteenSteps) {
+TEST_P(Kernels, DeepestPairIsWithinSixteenStepsOfTheMaximum) {
   for (int trial = 0; trial < 200; ++trial) {
     PairOverlaps overlaps;
     for (std::int16_t& overlap : overlaps.overlap)

@@ -111,7 +111,7 @@ TEST(OrientedBoxes, AreApartWhenAndOnlyWhenTheSolidsAre) {
 }
 
 // The matrix is a rotation but for up to a thousandth, and the meshes lie far from their origins; the boxes just meet.
-TEST(OrientedBoxes, ThatMeetAreNotApartWhateverTheMatrixAndThePlace) {
+TEST(OrientedBoxes, TouchingBoxesAreNotApartForInexactRotationsAndOffsets) {
   RecordProperty("seed", static_cast<int>(kOrientedBoxesSeed));
   test_support::RandomNumbers random(kOrientedBoxesSeed);
   constexpr int kTrials = test_support::affordable(600);
@@ -126,7 +126,7 @@ TEST(OrientedBoxes, ThatMeetAreNotApartWhateverTheMatrixAndThePlace) {
   EXPECT_GT(compared, kTrials / 3);
 }
 
-TEST(OrientedBoxes, AGapAlongAnEdgeIsNotOverrated) {
+TEST(OrientedBoxes, GapNeverExceedsTheDistance) {
   RecordProperty("seed", static_cast<int>(kOrientedBoxesSeed));
   test_support::RandomNumbers random(kOrientedBoxesSeed);
   constexpr int kTrials = test_support::affordable(4000);

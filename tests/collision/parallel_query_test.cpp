@@ -77,7 +77,7 @@ TEST_P(OverlappingParts, HaveTheSameClosePairsAsForOneThread) {
   });
 }
 
-TEST_P(OverlappingParts, WakeNobodyWhereThereIsLittleToDo) {
+TEST_P(OverlappingParts, LittleWorkIsNotDivided) {
   with_threads([&] {
     ParallelWorkspace workspace;
     std::vector<TrianglePair> pairs{{1, 2}};

@@ -41,7 +41,7 @@ TEST(WayOut, IsNoneForMeshesThatAreApart) {
   EXPECT_NEAR(depth_of(box, box, at(1.1), 0.3), 0.2, 2e-3) << "but not by that clearance";
 }
 
-TEST(WayOut, OfMeshesThatOnlyTouchIsAsGoodAsNone) {
+TEST(WayOut, NearlyZeroForTouchingMeshes) {
   const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   EXPECT_LE(depth_of(box, box, at(1.0)), 1e-9);
   const auto corner = [](double size) {
@@ -78,7 +78,7 @@ TEST(WayOut, OfBallsIsAlongTheirCenters) {
   }
 }
 
-TEST(WayOut, OfASheetThatABallIsStuckInIsToTheNearerSide) {
+TEST(WayOut, BallInASheetLeavesToTheNearerSide) {
   const DopTree sheet = tree_of(geometry::make_plate({2.0, 2.0}, 200));
   const DopTree ball = tree_of(geometry::make_sphere(0.1, 2000));
   for (const double height : {0.06, -0.03}) {
@@ -94,7 +94,7 @@ TEST(WayOut, IsFoundForConcentricObjects) {
   EXPECT_NEAR(depth_of(box, box, Isometry3d::Identity()), 1.0, 0.02);
 }
 
-TEST(WayOut, OfAPegBesideTheMiddleOfItsHoleIsToTheMiddle) {
+TEST(WayOut, OffCentrePegMovesToTheMiddleOfItsHole) {
   // The walls of a square hole of 2 × 2, 40 high, and a block in it that fits with 0.02 on each side. It is 0.6 too far
   // to one side, and 20 deep: to leave the hole is long, and along all other directions the free place is small.
   const DopTree hole = tree_of(geometry::make_box({2.0, 2.0, 40.0}, 48));
@@ -116,7 +116,7 @@ TEST(WayOut, IsTheSameOnASecondCall) {
   EXPECT_EQ(find_way_out(box, ball, at(0.5, 0.4, 0.3), workspace).way_out_A, first);
 }
 
-TEST(WayOut, RefusesWhatTheQueriesRefuse) {
+TEST(WayOut, RefusesInvalidPosesAndClearances) {
   const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   QueryWorkspace workspace;
   EXPECT_THROW(find_way_out(box, box, at(std::nan("")), workspace), std::invalid_argument);

@@ -54,7 +54,7 @@ class Crowd {
   std::int64_t near_ = 0;
 };
 
-TEST(PipelineThreads, GiveTheAnswersOfOne) {
+TEST(PipelineThreads, MatchTheSingleThreadedResult) {
   RecordProperty("seed", static_cast<int>(kPipelineThreadsSeed));
   Crowd by_one(1);
   Crowd by_two(2);

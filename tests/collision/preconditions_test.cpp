@@ -60,7 +60,7 @@ TEST_F(CollisionPreconditions, NumbersOfATreeAreInRange) {
   EXPECT_DEATH(tree.triangles_of_leaf(static_cast<std::uint32_t>(tree.leaf_count())), "leaf < ");
 }
 
-TEST_F(CollisionPreconditions, TheMemoryOfHullsIsTheirOwn) {
+TEST_F(CollisionPreconditions, HullMemoryBelongsToItsHulls) {
   const ConvexHull hull(*a_box());
   HullMemory memory;
   memory.corner_B = 8;

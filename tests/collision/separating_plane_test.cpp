@@ -57,7 +57,7 @@ TEST_F(SeparatingPlanes, TellBoxesApartAtTheirFaces) {
 }
 
 // Two bodies roll about each other through contact; memory must never change an answer, and every answer is proved.
-TEST_F(SeparatingPlanes, AreRightWhateverIsRemembered) {
+TEST_F(SeparatingPlanes, WarmStartKeepsTheResult) {
   const std::vector<ConvexHull> hulls{
       ConvexHull(geometry::make_sphere(0.5, 200)), ConvexHull(geometry::make_box({1.0, 0.4, 0.1}, 12)),
       ConvexHull(geometry::make_plate({0.7, 0.7}, 2)), ConvexHull(std::vector<Vector3d>{{-0.5, 0, 0}, {0.5, 0.1, 0}}),
@@ -121,7 +121,7 @@ TEST_F(SeparatingPlanes, MissNoContactOfBallsWhenThePoseIsNotQuiteARotation) {
 }
 
 // Balls and boxes at one per cent of distance, which turn by five degrees a step.
-TEST_F(SeparatingPlanes, NeedNoSearchForWhatIsPlainlyApart) {
+TEST_F(SeparatingPlanes, ClearlySeparatedHullsNeedNoIterations) {
   for (const auto& [hull, reach] : {std::pair{ConvexHull(geometry::make_sphere(1.0, 20000)), 1.0},
                                     std::pair{ConvexHull(geometry::make_sphere(1.0, 100)), 1.0},
                                     std::pair{ConvexHull(geometry::make_box({1.0, 1.0, 1.0}, 12)), std::sqrt(0.75)}}) {

@@ -130,7 +130,7 @@ TEST(TriangleSelection, AnswersTheSelectedPairs) {
   EXPECT_GT(all_found, 10'000U) << "too few to be a test of anything";
 }
 
-TEST(TriangleSelection, LeavesNothingOutWhereOneOfTheTwoIsMissing) {
+TEST(TriangleSelection, HasNoEffectIfOneMeshHasNone) {
   const geometry::TriangleMesh torus = geometry::make_torus(0.1, 0.03, 400);
   const Selected none(torus, Flags(torus.triangles.size(), 0));
   const Isometry3d X_AB = pose(Eigen::Matrix3d::Identity(), {0.15, 0.0, 0.0});
@@ -148,7 +148,7 @@ TEST(TriangleSelection, LeavesNothingOutWhereOneOfTheTwoIsMissing) {
 }
 
 // Two finely cut plates lie flush: nothing but their rims is of interest.
-TEST(TriangleSelection, WhatHasNothingSelectedIsPassedOverHighUp) {
+TEST(TriangleSelection, UnselectedSubtreesAreSkipped) {
   const geometry::TriangleMesh plate = geometry::make_plate({0.2, 0.2}, 20'000);
   Flags at_rim(plate.triangles.size());
   for (std::int32_t t = 0; t < static_cast<std::int32_t>(at_rim.size()); ++t) {

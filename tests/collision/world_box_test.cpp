@@ -31,14 +31,14 @@ Eigen::Isometry3d of_matrix(const Eigen::Matrix3d& R, const Eigen::Vector3d& p) 
   return X;
 }
 
-TEST(WorldBox, IsThatOfTheMeshWhereItIsNotTurned) {
+TEST(WorldBox, TightForAnUnrotatedMesh) {
   const DopTree tree = shifted_tree_of(geometry::make_box({2.0, 4.0, 6.0}, 12), {10.0, 0.0, 0.0});
   const Eigen::AlignedBox3d box = world_box(tree, test_support::at(0.0, 1.0));
   EXPECT_LT((box.min() - Eigen::Vector3d(9.0, -1.0, -3.0)).norm(), 1e-9);
   EXPECT_LT((box.max() - Eigen::Vector3d(11.0, 3.0, 3.0)).norm(), 1e-9);
 }
 
-TEST(WorldBox, IsThatOfTheSphereWhereTheTurnedBoxIsLarger) {
+TEST(WorldBox, UsesTheBoundingSphereIfTheRotatedBoxIsLarger) {
   const DopTree tree = shifted_tree_of(geometry::make_sphere(1.0, 20000), {0.0, 0.0, 0.0});
   const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1.0, 1.0, 1.0).normalized());
   const Eigen::AlignedBox3d box = world_box(tree, Eigen::Isometry3d(turn));
@@ -65,7 +65,7 @@ TEST(WorldBox, EnclosesEveryVertexAtAnyPose) {
 
 // Two boxes face to face, at poses that are rotations but for what `rigid_pose` lets pass: when the query says that
 // they touch, so do the boxes around them.
-TEST(WorldBox, OverlapsThatOfEveryObjectAQueryMayFindIntersecting) {
+TEST(WorldBox, BoxesOfIntersectingObjectsOverlap) {
   RecordProperty("seed", static_cast<int>(kWorldBoxSeed));
   test_support::RandomNumbers random(kWorldBoxSeed);
   QueryWorkspace workspace;

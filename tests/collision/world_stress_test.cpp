@@ -200,7 +200,7 @@ TEST(WorldStress, APoseThatIsRenewedWhileItIsReadIsNotTorn) {
   move_and_take_at_once(1, test_support::affordable(1'000'000), 0us);
 }
 
-TEST(WorldStress, MoversOfOneObjectKeepOutOfEachOthersWay) {
+TEST(WorldStress, ConcurrentMovesOfOneObjectTearNoPose) {
   // The consumer leaves the processors to them.
   move_and_take_at_once(2, test_support::affordable(5'000), 20us);
 }

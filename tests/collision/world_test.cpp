@@ -171,7 +171,7 @@ TEST(World, IsFullAtItsCapacityAndNotBefore) {
   EXPECT_NO_THROW(world.add({.tree = cube_tree()}));
 }
 
-TEST(World, RefusesWhatIsNoObject) {
+TEST(World, RefusesInvalidCapacitiesAndObjects) {
   EXPECT_THROW(World(0), std::invalid_argument);
   EXPECT_THROW(World(1000001), std::invalid_argument);
   World world;
@@ -190,7 +190,7 @@ TEST(World, HasTreesOfOneKind) {
   EXPECT_NO_THROW(world.add({.tree = cube_tree({.directions = 14})}));
 }
 
-TEST(World, RefusesWhatIsNoPose) {
+TEST(World, RefusesInvalidPoses) {
   World world;
   const ObjectId id = world.add({.tree = cube_tree()});
   Eigen::Isometry3d scaled = at(1.0);
@@ -209,7 +209,7 @@ TEST(World, RefusesWhatIsNoPose) {
   EXPECT_EQ(x_of(world, id), -1e9);
 }
 
-TEST(World, TakesInterestWithTheObjects) {
+TEST(World, DisabledPairsApplyFromTheNextTake) {
   World world;
   const ObjectId a = world.add({.tree = cube_tree()});
   const ObjectId b = world.add({.tree = cube_tree()});
@@ -233,7 +233,7 @@ TEST(World, TakesInterestWithTheObjects) {
   EXPECT_TRUE(world.is_enabled(c.index, a.index));
 }
 
-TEST(World, NobodyInheritsWhatWasIgnored) {
+TEST(World, NewObjectInASlotInheritsNoDisabledPairs) {
   World world;
   const ObjectId a = world.add({.tree = cube_tree()});
   const ObjectId b = world.add({.tree = cube_tree()});
@@ -262,7 +262,7 @@ TEST(World, MovingAndTakingPosesAllocateNothing) {
   EXPECT_EQ(test_support::allocations_of_this_thread(), before);
 }
 
-TEST(ObjectId, IsAKey) {
+TEST(ObjectId, IsHashableAndOrdered) {
   const std::unordered_set<ObjectId> set{{1, 2}, {2, 1}, {1, 2}};
   EXPECT_EQ(set.size(), 2U);
   EXPECT_LT((ObjectId{1, 2}), (ObjectId{2, 1}));

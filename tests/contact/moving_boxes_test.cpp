@@ -35,7 +35,7 @@ TEST(MovingBoxes, SeeABoxGoThroughASheetThoughNeitherEndMeetsIt) {
   EXPECT_TRUE(stay_apart(sheet, {kCube, at(0.0, 0.0, 0.021), at(0.0, 0.0, 1.0)}));
 }
 
-TEST(MovingBoxes, SeeWhatOnlyTheMiddleOfATurnMeets) {
+TEST(MovingBoxes, DetectsACollisionInMidRotation) {
   const Vector3d rod(0.1, 1e-3, 1e-3);
   const Isometry3d quarter = pose(Vector3d::Zero(), turn(0.5 * std::numbers::pi, Vector3d::UnitZ()));
   const double tip = std::hypot(0.1, 1e-3);  // how far its corners reach
@@ -47,7 +47,7 @@ TEST(MovingBoxes, SeeWhatOnlyTheMiddleOfATurnMeets) {
   }
 }
 
-TEST(MovingBoxes, ProveThatTwoWhichMoveAlikeKeepANanometre) {
+TEST(MovingBoxes, CertifiesANanometreGapUnderCommonMotion) {
   const Isometry3d X_aside = pose({0.3, -0.1, 0.2}, turn(0.4, {1.0, 2.0, 0.0}));
   const MovingBox left{kCube, at(-0.02), X_aside * at(-0.02)};
   EXPECT_TRUE(stay_apart(left, {kCube, at(0.02 + 1e-9), X_aside * at(0.04)}));

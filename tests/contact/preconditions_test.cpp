@@ -56,7 +56,7 @@ TEST_F(ContactPreconditions, AScriptedPartNeedsABody) {
       ThrowsMessage<std::invalid_argument>(HasSubstr("the lift needs a body")));
 }
 
-TEST_F(ContactPreconditions, ACallNeedsACycle) {
+TEST_F(ContactPreconditions, RulesAreInRange) {
   EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.max_cycles = 0}}), std::invalid_argument);
   EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.contacts_ahead_ms = -1.0}}), std::invalid_argument);
   EXPECT_THROW(Sliding({block_}, part_, above(), {.rules = {.affordable_pairs = 0}}), std::invalid_argument);

@@ -37,7 +37,7 @@ TEST(SweptCheck, SeesASheetGoThroughAnotherThoughNeitherEndCollides) {
   EXPECT_FALSE(check.fault_of(above, {{0.0, 0.0, 1.0}, Vector3d::Zero()}));
 }
 
-TEST(SweptCheck, SeesWhatOnlyTheMiddleOfATurnMeets) {
+TEST(SweptCheck, DetectsACollisionInMidRotation) {
   // A rod of 0.2 m beside a needle; turned by 90° its end passes 1 µm before or behind the needle's tip.
   const geometry::TriangleMesh rod{{{-0.1, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.1, 0.0, 1e-3}}, {{0, 1, 2}}};
   for (const double sign : {1.0, -1.0}) {

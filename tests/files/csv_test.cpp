@@ -103,7 +103,7 @@ TEST(Csv, WhatIsNotAFiniteNumberNamesLineColumnAndValue) {
   }
 }
 
-TEST(Csv, ABinaryFileIsToldOnOneShortLine) {
+TEST(Csv, BinaryFileMakesAShortErrorMessage) {
   const std::string garbage(10000, '\x01');
   expect_bad_input([&] { parse_table(garbage); }, {"table.csv:1:"});
   expect_bad_input([&] { parse_table("t_s,x_m\n1," + std::string(10000, 'x')); }, {"'xxxxx", "...'"});
@@ -149,7 +149,7 @@ TEST(CsvWriter, AFileThatCannotBeMadeIsNamed) {
   expect_bad_input([&] { CsvWriter(folder.path("none/out.csv"), kColumns); }, {"none/out.csv", "there is no folder"});
 }
 
-TEST(CsvWriter, AFullDiskIsAFailureWhileRunning) {
+TEST(CsvWriter, FullDiskThrowsARuntimeError) {
   CsvWriter writer("/dev/full", kColumns);
   EXPECT_THROW(writer.close(), std::runtime_error);
 }

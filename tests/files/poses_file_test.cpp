@@ -34,7 +34,7 @@ Eigen::Isometry3d turned(const std::string& angles) {
       .front();
 }
 
-TEST(PosesFile, AnglesTurnAboutTheFixedAxesOneAfterTheOther) {
+TEST(PosesFile, AnglesAreRollPitchYawAboutFixedAxes) {
   EXPECT_EQ(turned("0,0,0").linear(), Eigen::Matrix3d::Identity());
   EXPECT_EQ(turned("0,0,0").translation(), Eigen::Vector3d(1.0, 2.0, 3.0));
   // y goes to z by the roll, z to x by the pitch, x to y by the yaw.

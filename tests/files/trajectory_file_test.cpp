@@ -47,11 +47,11 @@ TEST(TrajectoryFile, ATimeThatDoesNotRiseNamesItsLine) {
   }
 }
 
-TEST(TrajectoryFile, ATimeThatNanosecondsCannotCountIsAnError) {
+TEST(TrajectoryFile, TimeBeyondTheNanosecondRangeIsAnError) {
   expect_bad_input([] { parse_rows("1e300,0,0,0,1,0,0,0\n"); }, {"path.csv:2:", "t_s", "1e+300"});
 }
 
-TEST(TrajectoryFile, PosesFollowTheRuleForPoses) {
+TEST(TrajectoryFile, PosesAreValidatedAsInPosesFiles) {
   expect_bad_input([] { parse_rows("0,0,0,0,0,0,0,0\n"); }, {"path.csv:2:", "is zero"});
   expect_bad_input([] { parse_rows("0,0,0,0,1.01,0,0,0\n"); }, {"path.csv:2:", "length 1.01"});
 }
@@ -69,7 +69,7 @@ std::string table_of(const std::vector<std::string>& columns) {
   return joined_by_commas(columns) + "\n" + zeros + "\n";
 }
 
-TEST(TrajectoryFile, ATableForAnotherCommandNamesThisCommand) {
+TEST(TrajectoryFile, TableForAnotherCommandNamesThatCommand) {
   const auto expect_told = [](const std::vector<std::string>& wanted, const std::vector<std::string>& given,
                               const std::string& command) {
     expect_bad_input([&] { parse_csv(table_of(given), "table.csv", wanted); },

@@ -67,7 +67,7 @@ std::string damaged(const std::string& text, std::uint64_t seed) {
          text.substr(end);
 }
 
-TEST_F(MeshImport, OfDamagedFilesNoOtherReaderFindsMore) {
+TEST_F(MeshImport, FindsNoFewerTrianglesThanAssimpInDamagedFiles) {
   const TriangleMesh mesh = make_sphere(0.5, 60);
   int read = 0;
   for (std::uint64_t number = 0; number < 500; ++number) {

@@ -241,7 +241,7 @@ TEST_F(BadMeshFile, GltfNodes) {
 }
 
 /// A few bytes may place the same triangles again and again: 9000 nodes of 1500 times the tetrahedron.
-TEST_F(BadMeshFile, GltfThatMultipliesItself) {
+TEST_F(BadMeshFile, GltfWithTooManyPlacedPoints) {
   const std::string primitive = R"({"attributes":{"POSITION":0},"indices":1})";
   std::string primitives;
   for (int i = 0; i < 1500; ++i) {

@@ -34,7 +34,7 @@ test_support::TrianglePair any_pair(RandomTriangles& random) {
 
 class ClosestPointsOfPairs : public test_support::EveryInstructionSet {};
 
-TEST_P(ClosestPointsOfPairs, GivesTheBitsOfOnePairAtATime) {
+TEST_P(ClosestPointsOfPairs, BitIdenticalToOnePairAtATime) {
   constexpr std::uint64_t kSeed = 21;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomTriangles random(kSeed);

@@ -55,7 +55,7 @@ TEST_F(Motion, NoPointMovesMoreThanTheBoundAtAnyMoment) {
   EXPECT_DOUBLE_EQ(motion_bound({Eigen::Vector3d::Zero(), {std::numbers::pi, 0, 0}}, radius), 2.0 * radius);
 }
 
-TEST_F(Motion, ShorteningToALengthKeepsToIt) {
+TEST_F(Motion, ShortenedDisplacementStaysWithinTheLength) {
   const double radius = 0.5;
   for (const double angle : {0.001, 0.1, 1.0, 3.0, std::numbers::pi}) {
     for (const double longest : {0.0, 1e-4, 0.01, 0.3}) {

@@ -54,7 +54,7 @@ TEST_F(GltfAccessor, SparseIndicesOfCorners) {
   EXPECT_THAT(vertices(file), ElementsAre(Point(0, 0, 0), Point(1, 1, 0), Point(0, 1, 0)));
 }
 
-TEST_F(GltfAccessor, BrokenSparseOnes) {
+TEST_F(GltfAccessor, InvalidSparseAccessors) {
   const auto with_indices = [](const std::string& indices, int component) {
     GltfWriter file = placed_triangle();
     make_sparse(file, 0, 2, indices, component, bytes_of<float>({0, 0, 5, 0, 7, 0}));
@@ -69,7 +69,7 @@ TEST_F(GltfAccessor, BrokenSparseOnes) {
 }
 
 /// A file of a few bytes cannot ask for any number of zeros.
-TEST_F(GltfAccessor, ZerosThatTheFileDoesNotHaveAreLimited) {
+TEST_F(GltfAccessor, ImplicitZerosAreLimited) {
   GltfWriter file = placed_triangle();
   file.root["accessors"][0].erase("bufferView");
   file.root["accessors"][0]["count"] = 150'000'000;
@@ -77,7 +77,7 @@ TEST_F(GltfAccessor, ZerosThatTheFileDoesNotHaveAreLimited) {
   EXPECT_THAT(error(file), HasSubstr("accessors[0]: it has 150000000 elements, but no bufferView"));
 }
 
-TEST_F(GltfAccessor, AStrideOfZeroMeansNoGaps) {
+TEST_F(GltfAccessor, ZeroStrideMeansTightlyPacked) {
   GltfWriter file = placed_triangle();
   file.root["bufferViews"][0]["byteStride"] = 0;
   EXPECT_THAT(vertices(file), ElementsAre(Point(0, 0, 0), Point(1, 0, 0), Point(0, 1, 0)));

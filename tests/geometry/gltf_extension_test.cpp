@@ -26,7 +26,7 @@ class GltfExtension : public GltfImport {
   }
 };
 
-TEST_F(GltfExtension, RequiredOnesThatHoldNoGeometryAreTold) {
+TEST_F(GltfExtension, RequiredOnesWithoutGeometryAreWarnedOf) {
   GltfWriter file = placed_triangle();
   file.root["extensionsRequired"] = {"KHR_xmp_json_ld", "EXT_texture_webp", "KHR_materials_unlit"};
   const ImportedMesh imported = import(file);
@@ -44,7 +44,7 @@ TEST_F(GltfExtension, RequiredOnesThatMayHoldGeometryAreRefused) {
 }
 
 /// What looks different does not matter; what may be elsewhere, or more, is told.
-TEST_F(GltfExtension, IgnoredOnesThatMayChangeTheGeometryAreTold) {
+TEST_F(GltfExtension, IgnoredOnesThatMayChangeTheGeometryAreWarnedOf) {
   GltfWriter file = placed_triangle();
   file.add_node({{"extensions", {{"MSFT_lod", {{"ids", {0}}}}, {"KHR_lights_punctual", {{"light", 0}}}}}});
   file.add_node({{"extensions", {{"MSFT_lod", {{"ids", {0}}}}}}});
@@ -53,7 +53,7 @@ TEST_F(GltfExtension, IgnoredOnesThatMayChangeTheGeometryAreTold) {
               ElementsAre("2 uses of extensions are ignored (the first: 'MSFT_lod' of nodes[1])."));
 }
 
-TEST_F(GltfExtension, CompressionWithoutACopyIsRefused) {
+TEST_F(GltfExtension, CompressedPrimitivesWithoutFallbackAreRefused) {
   GltfWriter file = placed_triangle();
   primitive_of(file)["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0},
                                                                     {"attributes", {{"POSITION", 0}}}};
@@ -69,7 +69,7 @@ TEST_F(GltfExtension, CompressionWithoutACopyIsRefused) {
 }
 
 /// The buffer of a compressed view is the place of its copy, and may be only a place.
-TEST_F(GltfExtension, CompressedViewsWithoutACopyAreRefused) {
+TEST_F(GltfExtension, CompressedViewsWithoutFallbackAreRefused) {
   GltfWriter file = placed_triangle();
   file.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = {
       {"buffer", 0}, {"byteLength", 36}, {"byteStride", 12}, {"count", 3}, {"mode", "ATTRIBUTES"}};

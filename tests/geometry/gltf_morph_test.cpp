@@ -36,7 +36,7 @@ TEST_F(GltfMorph, WeightsOfTheMeshAreTheDefault) {
   EXPECT_THAT(vertices(file), ElementsAre(Point(0, 0, 0), Point(1, 0, 1), Point(0, 1, 2)));
 }
 
-TEST_F(GltfMorph, WeightsOfTheNodeTakeTheirPlace) {
+TEST_F(GltfMorph, NodeWeightsOverrideMeshWeights) {
   GltfWriter file = two_targets();
   file.root["meshes"][0]["weights"] = {0.5, 0.25};
   file.root["nodes"][0]["weights"] = {-1, 0};
@@ -58,7 +58,7 @@ TEST_F(GltfMorph, TargetsComeBeforeSkins) {
 }
 
 /// A target of normals only leaves the points where they are. One of bytes is quantized.
-TEST_F(GltfMorph, TargetsOfOtherKinds) {
+TEST_F(GltfMorph, TargetsOfNormalsAndQuantizedPositions) {
   GltfWriter file = two_targets();
   json& targets = primitive_of(file)["targets"];
   targets[0] = {{"NORMAL", 0}};
@@ -72,7 +72,7 @@ TEST_F(GltfMorph, TargetsOfOtherKinds) {
   EXPECT_THAT(error(file), HasSubstr("it has 2 elements, but should have 3"));
 }
 
-TEST_F(GltfMorph, AnotherNumberOfWeightsIsTold) {
+TEST_F(GltfMorph, WrongNumberOfWeightsIsWarnedOf) {
   GltfWriter file = two_targets();
   file.root["meshes"][0]["weights"] = {0.5};
   const ImportedMesh imported = import(file);

@@ -24,7 +24,7 @@ class GltfScene : public GltfImport {
   }
 };
 
-TEST_F(GltfScene, WithoutScenesAllRootsAreOne) {
+TEST_F(GltfScene, WithoutScenesAllRootNodesAreImported) {
   GltfWriter file = three_nodes();
   const auto expected = ElementsAre(Point(0, 0, 1), Point(1, 0, 1), Point(0, 1, 1), Point(0, 0, 2), Point(1, 0, 2),
                                     Point(0, 1, 2), Point(0, 0, 4), Point(1, 0, 4), Point(0, 1, 4));
@@ -43,7 +43,7 @@ TEST_F(GltfScene, OtherScenesAreToldOf) {
   EXPECT_THAT(import(file).mesh.vertices, SizeIs(6));
 }
 
-TEST_F(GltfScene, ANodeHasOnePlace) {
+TEST_F(GltfScene, NodeUsedTwiceIsAnError) {
   GltfWriter file = three_nodes();
   file.root["scenes"] = {{{"nodes", {0, 1}}}};
   EXPECT_THAT(error(file),

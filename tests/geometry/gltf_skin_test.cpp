@@ -200,7 +200,7 @@ TEST_F(GltfSkin, SeamsStayClosed) {
   EXPECT_THAT(vertices(file), SizeIs(4));
 }
 
-TEST_F(GltfSkin, AMeshWithoutJointsHasNoPlace) {
+TEST_F(GltfSkin, SkinnedMeshWithoutJointsIsAnError) {
   GltfWriter file = triangle();
   file.root["skins"] = {{{"joints", {0}}}};
   file.add_node({{"mesh", 0}, {"skin", 0}});

@@ -144,7 +144,7 @@ TEST_F(MeshImport, QuantizedPositionsOfGltf) {
               ElementsAre(Point(0, 0, 0), Point(1, 0, 0), Point(0, 0.2, 0)));
 }
 
-TEST_F(MeshImport, WhatIsNotAReadableMeshFile) {
+TEST_F(MeshImport, UnreadableFilesAreErrors) {
   EXPECT_THROW(import_mesh(""), std::invalid_argument);
   EXPECT_THAT(error_of(folder_.path() / "missing.obj"), testing::EndsWith("missing.obj: there is no such file"));
   EXPECT_THAT(error_of(folder_.path()), testing::HasSubstr("folder"));
@@ -160,7 +160,7 @@ TEST_F(MeshImport, WhatIsNotAReadableMeshFile) {
   }
 }
 
-TEST_F(MeshImport, AnUnweldedMeshIsAsTheFileHasIt) {
+TEST_F(MeshImport, UnweldedImportKeepsAllVerticesAndTriangles) {
   const std::string text = "v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 -0.0 1\nv 1 0 0\nf 4 2 3\nf 2 2 5\nrock 1\n";
   const ImportedMesh raw = import_unwelded_mesh(folder_.write("raw.obj", text), 2.0);
   ASSERT_EQ(raw.mesh.vertices.size(), 5U);

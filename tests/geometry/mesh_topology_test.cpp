@@ -43,7 +43,7 @@ TEST(MeshTopology, IsBlindToTheOrientationOfTriangles) {
   EXPECT_EQ(count_edges(MeshTopology(flip_randomly(sphere, 5)), false), count_edges(MeshTopology(sphere), false));
 }
 
-TEST(MeshTopology, OnlyTheRimOfASheetCanStopAnything) {
+TEST(MeshTopology, OfASheetOnlyTheRimEdgesAndItsCornersCanStop) {
   const TriangleMesh sheet = make_plate({1.0, 1.0}, 200);  // 10 × 10 cells
   const MeshTopology topology(sheet);
   EXPECT_EQ(count_edges(topology, false), 40);
@@ -53,7 +53,7 @@ TEST(MeshTopology, OnlyTheRimOfASheetCanStopAnything) {
     EXPECT_EQ(sheet.vertices[static_cast<std::size_t>(v)].cwiseAbs().head<2>(), Eigen::Vector2d(0.5, 0.5));
 }
 
-TEST(MeshTopology, OfAFinelyCutBoxTheCornersCanStopAndTheRimsWithoutTheirVertices) {
+TEST(MeshTopology, OfAFinelyCutBoxOnlyTheCornerVerticesCanStop) {
   const TriangleMesh box = flip_randomly(make_box({0.1, 0.2, 0.3}, 6000), 3);
   const MeshTopology topology(box);
   EXPECT_GT(count_edges(topology, false), 200);
@@ -71,7 +71,7 @@ TEST(MeshTopology, OfAFinelyCutBoxTheCornersCanStopAndTheRimsWithoutTheirVertice
   }
 }
 
-TEST(MeshTopology, OfACylinderOnlyTheRimsOfItsEndsCanStop) {
+TEST(MeshTopology, OfATubeOnlyVerticesOfTheEndsCanStop) {
   const TriangleMesh tube = make_tube(0.05, 0.4, 4000);
   const MeshTopology topology(tube);
   const auto vertices = stops(topology, tube);
@@ -148,7 +148,7 @@ TEST(MeshTopology, EveryEdgeAndVertexHasOneOwnerAmongItsTriangles) {
   EXPECT_EQ(topology.edges_of(static_cast<std::int32_t>(mesh.triangles.size()) - 1)[0], -1);
 }
 
-TEST(MeshTopology, HasEachEdgeOnceInAscendingOrderAndItsTrianglesTooInTheirs) {
+TEST(MeshTopology, EdgesAreUniqueAndAscendingWithTheirApexes) {
   TriangleMesh mesh = make_torus(0.1, 0.03, 400);
   mesh.triangles.push_back({7, 7, 9});  // no edge of a degenerate triangle counts
   std::reverse(mesh.triangles.begin() + 5, mesh.triangles.begin() + 90);
@@ -182,7 +182,7 @@ TriangleMesh fan(const Eigen::Vector3d& apex, const std::vector<Eigen::Vector3d>
 }
 
 // Each vertex stands proud of its neighbors by a few nanometres only.
-TEST(MeshTopology, OfAFinelyCutCurveEnoughVerticesStopToKeepItsShape) {
+TEST(MeshTopology, StoppingVerticesKeepTheShapeOfAFinelyCutCurve) {
   constexpr double kRadius = 10.0;
   std::vector<Eigen::Vector3d> arc;
   for (int i = 0; i <= 200; ++i) {

@@ -90,7 +90,7 @@ TEST_F(ObjDialect, ABackslashContinuesALine) {
   EXPECT_THAT(error_of("a.obj", with(cube_obj(), "f 1 3 4", "f 1 3 4 \\")), HasSubstr("line 9: 'f' is not a corner"));
 }
 
-TEST_F(ObjDialect, LinesEndAsTheyLike) {
+TEST_F(ObjDialect, AnyLineEndingIsRead) {
   expect_obj(with_all(cube_obj(), "\n", "\r"));
   expect_obj(with_all(cube_obj(), "\n", "\r\n"));
   expect_obj(with_all(cube_obj(), "\n", " \r\r\n"));

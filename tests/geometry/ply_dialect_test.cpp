@@ -55,7 +55,7 @@ TEST_F(PlyDialect, FacesOfFewerThanThreeCornersAreLeftOut) {
   }
 }
 
-TEST_F(PlyDialect, WhatIsNotReadNeedNotBeANumber) {
+TEST_F(PlyDialect, UnusedPropertiesNeedNotBeNumbers) {
   const std::string header = with(cube_ply_header(), "property float z\n",
                                   "property float z\nproperty float nx\nproperty list uchar float t\n");
   for (const char* number : {"-1.#IND", "1.#QNAN", "nan", "-nan(ind)", "1.#J", "?", "NULL"}) {
@@ -130,7 +130,7 @@ TEST_F(PlyDialect, CommentsMayStandAnywhere) {
   expect_ply(cube_ply_header() + comment + cube_ply_corners() + comment + cube_ply_faces() + comment);
 }
 
-TEST_F(PlyDialect, LinesOfTheHeaderEndAsTheyLike) {
+TEST_F(PlyDialect, HeaderMayHaveAnyLineEnding) {
   for (const char* end : {"\r", "\r\n", " \n", " \r\n"}) {
     SCOPED_TRACE(end);
     expect_ply(with_all(cube_ply(), "\n", end));
@@ -179,7 +179,7 @@ TEST_F(PlyDialect, MissingFinalNewline) {
   expect_ply(cube_ply().substr(0, cube_ply().size() - 1));
 }
 
-TEST_F(PlyDialect, WhatIsTooMuchOrTooLittleIsAnError) {
+TEST_F(PlyDialect, ExcessOrMissingDataIsAnError) {
   EXPECT_THAT(error_of("a.ply", cube_ply() + "3 0 1 2\n"),
               HasSubstr("line 30: the file is longer than its header says"));
   EXPECT_THAT(error_of("a.ply", header_of("binary_little_endian") + binary_body(false) + "tail"),

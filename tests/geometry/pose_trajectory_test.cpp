@@ -37,7 +37,7 @@ TEST(PoseTrajectory, MovesInAStraightLineAndTurnsEvenly) {
   EXPECT_TRUE(X_WB.linear().isApprox(AngleAxisd(std::numbers::pi / 8, Vector3d::UnitZ()).toRotationMatrix(), 1e-14));
 }
 
-TEST(PoseTrajectory, HasItsRowsAsTheyWereGivenAndInAnotherTime) {
+TEST(PoseTrajectory, RowsKeepTheirExactPosesIfTimeIsScaled) {
   Isometry3d X = Isometry3d::Identity();
   X.linear() = AngleAxisd(0.1, Vector3d(1, 2, 3).normalized()).toRotationMatrix();
   X(0, 0) += 1e-9;  // a quaternion would not keep that
@@ -47,7 +47,7 @@ TEST(PoseTrajectory, HasItsRowsAsTheyWereGivenAndInAnotherTime) {
   EXPECT_EQ(path.time_scaled(milliseconds(6)).rows()[0].X_WB.matrix(), X.matrix());
 }
 
-TEST(PoseTrajectory, MeetsItsRowsAndHoldsTheEnds) {
+TEST(PoseTrajectory, PassesThroughItsRowsAndHoldsTheEnds) {
   const std::vector<TimedPose> rows{row(milliseconds(0), {1, 0, 0}), row(milliseconds(7), {2, 0, 0}, 3.0),
                                     row(milliseconds(9), {3, 0, 0}, -3.0)};
   const PoseTrajectory trajectory(rows);
@@ -99,7 +99,7 @@ TEST(PoseTrajectory, TimeScalingKeepsThePath) {
   EXPECT_THROW(trajectory.time_scaled(nanoseconds(1)), std::invalid_argument);
 }
 
-TEST(PoseTrajectory, OneRowIsAPoseForEver) {
+TEST(PoseTrajectory, SingleRowIsAConstantPose) {
   const PoseTrajectory trajectory({row(milliseconds(5), {1, 2, 3}, 0.5)});
   for (const int ms : {0, 5, 10}) {
     EXPECT_TRUE(trajectory.pose_at(milliseconds(ms)).isApprox(row(milliseconds(0), {1, 2, 3}, 0.5).X_WB, 1e-15));

@@ -26,7 +26,7 @@ Isometry3d with_rotation(const Matrix3d& R) {
   return X;
 }
 
-TEST(RigidPose, OfARotationIsThatPose) {
+TEST(RigidPose, ExactRotationIsUnchanged) {
   RecordProperty("seed", static_cast<int>(kRigidPoseSeed));
   test_support::RandomNumbers random(kRigidPoseSeed);
   for (int i = 0; i < 1000; ++i) {
@@ -39,7 +39,7 @@ TEST(RigidPose, OfARotationIsThatPose) {
 }
 
 // Stretched, sheared, one column only, or all entries.
-TEST(RigidPose, IsARotationHoweverTheMatrixIsOff) {
+TEST(RigidPose, NearRotationBecomesARotation) {
   RecordProperty("seed", static_cast<int>(kRigidPoseSeed));
   test_support::RandomNumbers random(kRigidPoseSeed);
   int kept = 0;
@@ -64,7 +64,7 @@ TEST(RigidPose, IsARotationHoweverTheMatrixIsOff) {
   EXPECT_GT(kept, 1000);
 }
 
-TEST(RigidPose, IsNoneForWhatIsNoPose) {
+TEST(RigidPose, NoneForInvalidPoses) {
   EXPECT_FALSE(rigid_pose(with_rotation(1.001 * Matrix3d::Identity())).has_value());
   EXPECT_FALSE(rigid_pose(with_rotation(Eigen::Vector3d(1.0, 1.0, -1.0).asDiagonal())).has_value()) << "a reflection";
   EXPECT_FALSE(rigid_pose(with_rotation(Matrix3d::Zero())).has_value());

@@ -64,7 +64,7 @@ TEST_F(StlDialect, OtherLinesAreSkippedWithAWarning) {
              {"12 unknown statements are skipped (the first: line 9, 'color')."});
 }
 
-TEST_F(StlDialect, LinesEndAsTheyLike) {
+TEST_F(StlDialect, AnyLineEndingIsRead) {
   for (const char* end : {" ", "\r", "\r\n", "\n\n", "\r\r\n", "\t\n  "}) {
     expect_stl(with_all(cube_stl(), "\n", end));
   }
@@ -136,7 +136,7 @@ TEST_F(StlDialect, BinaryFilesHaveTheSizeThatTheirHeaderSays) {
   EXPECT_THAT(error_of("a.stl", none), HasSubstr("its header says 0 triangles"));
 }
 
-TEST_F(StlDialect, AnyDoubtAboutAFacetIsAnError) {
+TEST_F(StlDialect, MalformedFacetIsAnError) {
   const std::vector<std::vector<std::string>> cases{
       {"vertex 0 1 0", "vertex 0 1", "line 6: a coordinate is not a number"},
       {"vertex 0 1 0\n", "", "line 6: 'vertex' should stand here"},

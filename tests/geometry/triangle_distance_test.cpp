@@ -102,7 +102,7 @@ TEST(TriangleDistance, IsRightForNeedlesABillionTimesAsLongAsWide) {
   EXPECT_LT(triangle_distance(triangle, needle).distance, 1e-15);
 }
 
-TEST(TriangleDistance, LooksFartherThanTheFirstSmallGap) {
+TEST(TriangleDistance, FindsASmallerGapBeyondASmallOne) {
   // The edge of b on the x axis passes 1e-8 above an edge of a, but a is tilted and meets it 1 m further on, less 1e-9.
   const TrianglePoints a{Vector3d(0, -1, 0), Vector3d(0, 1, 0), Vector3d(2, 0, 1.8e-8)};
   const TrianglePoints b{Vector3d(-1, 0, 1e-8), Vector3d(1, 0, 1e-8), Vector3d(0, 0, 1)};
@@ -160,7 +160,7 @@ TEST(TriangleDistanceAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
   expect_agreement_with_cgal(affordable(2'000), 14, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
-TEST(TriangleDistance, OfATriangleThatIsFlattenedIsThatOfWhatIsLeft) {
+TEST(TriangleDistance, DegenerateTriangleActsAsASegmentOrPoint) {
   const TrianglePoints triangle{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)};
   const Eigen::Vector3d p(-0.1, 0.5, 0);
   EXPECT_NEAR(triangle_distance(triangle, {p, p, p}).distance, 0.1, 1e-15);

@@ -136,7 +136,7 @@ TEST(TriangleIntersectionExact, SeesOneUnitInTheLastPlace) {
   }
 }
 
-TEST(TriangleIntersectionExact, DecidesWhatDifferencesOfCoordinatesLose) {
+TEST(TriangleIntersectionExact, DecidesWhereCoordinateDifferencesAreRounded) {
   // 2^60 + 1 is no double: the differences to the apex are rounded, and a determinant of them is 0.
   const TrianglePoints face{Vector3d(1, 0, 0), Vector3d(0, 1, 0), Vector3d(0, 0, 1)};
   const TrianglePoints in_plane{Vector3d(0x1p60, -0x1p60, 1), Vector3d(0, 0, 2), Vector3d(0, 0, 3)};
@@ -200,7 +200,7 @@ TEST(TriangleIntersectionAgainstCgal, AgreesOnPairsThatAreNearlyCoplanar) {
   expect_same_answers_as_cgal(affordable(30'000), 5, [](RandomTriangles& random) { return random.nearly_coplanar(); });
 }
 
-TEST(TrianglesIntersect, ATriangleThatIsFlattenedIsTheSegmentThatIsLeft) {
+TEST(TrianglesIntersect, DegenerateTriangleActsAsASegmentOrPoint) {
   const TrianglePoints triangle{Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(0, 1, 0)};
   const auto meets = [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     const Eigen::Vector3d middle = 0.5 * (p + q);

@@ -175,7 +175,7 @@ TEST(GridCheck, ChecksManyPosesWithEveryObstacle) {
   EXPECT_GT(hits[1], 10);
 }
 
-TEST(GridCheck, RefusesWhatItCannotCheck) {
+TEST(GridCheck, RefusesInvalidMeshes) {
   EXPECT_THROW(GridCheck({{nullptr}}), std::invalid_argument);
   const auto broken = std::make_shared<geometry::TriangleMesh>(
       geometry::TriangleMesh{{Vector3d(0, 0, 0), Vector3d(1, 0, 0), Vector3d(0, std::nan(""), 0)}, {{0, 1, 2}}});

@@ -61,7 +61,7 @@ TEST(BenchmarkShapes, TheSuiteIsThatOfThePaper) {
             (std::vector<std::string>{"headlight", "door-lock", "car-body", "hose", "sphere", "hyperboloid", "torus"}));
 }
 
-TEST(BenchmarkShapes, GiveAboutTheTrianglesAskedForAndNoneWithoutArea) {
+TEST(BenchmarkShapes, TriangleCountIsAboutAsRequestedWithoutDegenerates) {
   for (const BenchmarkShape& shape : benchmark_shapes()) {
     // Just below and above the count from which small details are shown, too.
     for (const std::int64_t count : {1'000, 2'500, 7'999, 8'000, 25'000, affordable(200'000)}) {
@@ -74,7 +74,7 @@ TEST(BenchmarkShapes, GiveAboutTheTrianglesAskedForAndNoneWithoutArea) {
   }
 }
 
-TEST(BenchmarkShapes, EveryTriangleHasThreeVerticesOfTheMesh) {
+TEST(BenchmarkShapes, NoDegenerateDuplicateOrNonmanifoldTriangles) {
   for (const BenchmarkShape& shape : benchmark_shapes()) {
     SCOPED_TRACE(shape.name);
     const geometry::MeshReport r = geometry::report(shape.make(10'000));
@@ -164,7 +164,7 @@ TEST(BenchmarkShapes, RejectCountsOutOfRange) {
   }
 }
 
-TEST(BumpyPlate, LiesWithinItsBumpsAndReachesThem) {
+TEST(BumpyPlate, HeightMatchesTheBumpHeight) {
   const geometry::TriangleMesh plate = make_bumpy_plate({0.4, 0.2}, 0.01, 3, 20'000);
   EXPECT_NEAR(static_cast<double>(plate.triangles.size()), 20'000, 1'000);
   const AlignedBox3d bounds = geometry::bounds_of(plate);
@@ -188,7 +188,7 @@ TEST(BumpyPlate, TwoOfThemAreCloseEverywhereAndTouchNowhere) {
   EXPECT_TRUE(intersects(tree, tree, Eigen::Isometry3d(Eigen::Translation3d(0.01, 0, gap)), workspace));
 }
 
-TEST(BumpyPlate, RejectsWhatIsNoPlate) {
+TEST(BumpyPlate, RejectsArgumentsOutOfRange) {
   const Eigen::Vector2d size(0.2, 0.2);
   expect_bad_input([&] { make_bumpy_plate({0, 0.2}, 0.01, 4, 2'000); }, {"size", "0"});
   expect_bad_input([&] { make_bumpy_plate(size, -0.01, 4, 2'000); }, {"bump_height", "-0.01"});

@@ -58,7 +58,7 @@ TEST_P(PegAndHole, TheGapIsTheDifferenceOfTheRadiiAtAnyDepth) {
   }
 }
 
-TEST_P(PegAndHole, SidewaysThePegHasTheClearanceAndNoMore) {
+TEST_P(PegAndHole, LateralPlayIsTheClearance) {
   const collision::DopTree peg_tree = tree_of(make_peg(peg()));
   const collision::DopTree plate_tree = tree_of(make_holed_plate(plate()));
   collision::QueryWorkspace workspace;
@@ -68,7 +68,7 @@ TEST_P(PegAndHole, SidewaysThePegHasTheClearanceAndNoMore) {
   EXPECT_TRUE(intersects(plate_tree, peg_tree, tip_at(-5e-3, 0.0, 1.001 * to_facet), workspace));
 }
 
-TEST_P(PegAndHole, AreClosedAndEncloseWhatTheyShould) {
+TEST_P(PegAndHole, MeshesAreClosedWithTheExactVolume) {
   const geometry::TriangleMesh peg_mesh = make_peg(peg());
   const geometry::MeshReport peg_report = geometry::report(peg_mesh);
   EXPECT_TRUE(peg_report.is_watertight);

@@ -54,7 +54,7 @@ class NutOnBolt : public ::testing::TestWithParam<Tessellation> {
   collision::QueryWorkspace workspace_;
 };
 
-TEST_P(NutOnBolt, ItsFreeWayAlongTheAxisIsThePlayAtEveryAngle) {
+TEST_P(NutOnBolt, AxialPlayIsConstantOverTheAngle) {
   const double lost_to_straight_edges = 1.3 * pitch() / std::pow(bolt().segments, 3);
   const double at_least = 0.5 * kPlay - lost_to_straight_edges;
   const double at_most = 0.5 * (kPlay + std::tan(pi / 6) * bolt().diameter / 2 * std::pow(pi / bolt().segments, 2));
@@ -69,7 +69,7 @@ TEST_P(NutOnBolt, ItsFreeWayAlongTheAxisIsThePlayAtEveryAngle) {
   }
 }
 
-TEST_P(NutOnBolt, CorneredFlanksAreAsFarApartAsTheirPlaySays) {
+TEST_P(NutOnBolt, FlankGapMatchesThePlay) {
   const double excess = std::tan(pi / 6) * bolt().diameter / 2 * std::pow(pi / bolt().segments, 2);
   for (const double turns : {0.0, 1.0, 1.3, 2.71}) {
     EXPECT_GT(gap(turns), 0.5 * kPlay * std::cos(pi / 6) - 1e-7);
@@ -77,7 +77,7 @@ TEST_P(NutOnBolt, CorneredFlanksAreAsFarApartAsTheirPlaySays) {
   }
 }
 
-TEST_P(NutOnBolt, ItIsRightHandedAndNothingElseIsFree) {
+TEST_P(NutOnBolt, OnlyRightHandedScrewMotionIsFree) {
   for (const double turns : {0.1, 0.3, 0.7}) {
     EXPECT_FALSE(collides(2.0 + turns, 0.0));
     EXPECT_TRUE(collides(2.0 + turns, -pitch() * turns)) << "turned without advance";
@@ -106,7 +106,7 @@ TEST(ScrewThread, TheBoltHasTheDiametersOfTheStandard) {
   EXPECT_NEAR(2 * inner, 13.835e-3, 0.5e-6) << "minor diameter of M16 by ISO 724";
 }
 
-TEST(ScrewThread, IsAnOpenSheetOfOneSide) {
+TEST(ScrewThread, SurfacesAreConsistentlyOriented) {
   const ThreadShape shape;
   const geometry::MeshReport bolt = geometry::report(make_bolt(shape));
   EXPECT_EQ(bolt.triangles, 8 * shape.segments * shape.turns - 2 * shape.segments);

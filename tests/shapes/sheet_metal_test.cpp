@@ -94,7 +94,7 @@ TEST(SheetMetal, SignedDistanceOfARoundedRectangle) {
   EXPECT_DOUBLE_EQ(signed_distance(outline, {3, 3}), 0.5 * (std::sqrt(2.0) - 1));
 }
 
-TEST(SheetMetal, RejectsWhatCannotBePressed) {
+TEST(SheetMetal, RejectsInvalidGeometry) {
   SheetMetal sheet = example();
   sheet.holes.front().center.x() = 0.19;
   EXPECT_THROW(make_sheet(sheet, 1000), std::invalid_argument) << "hole over the edge";

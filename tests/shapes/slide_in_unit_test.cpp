@@ -22,7 +22,7 @@ using test_support::enclosed_volume;
 using test_support::expect_bad_input;
 using test_support::tree_of;
 
-TEST(SlideInUnit, HasItsClearanceOnTheWholeWayHome) {
+TEST(SlideInUnit, ClearanceIsConstantDuringInsertion) {
   for (const std::int64_t triangles : {30, 1000, 20'000}) {
     const SlideInShape shape{.triangles = triangles};
     const collision::DopTree unit = tree_of(make_slide_in_unit(shape));

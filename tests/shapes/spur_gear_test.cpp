@@ -44,7 +44,7 @@ double area_of(const std::vector<Vector2d>& polygon) {
   return area;
 }
 
-TEST(SpurGear, HasItsTeethAndHalfThePitchCircleIsTeeth) {
+TEST(SpurGear, ToothCountIsRightAndTeethFillHalfThePitchCircle) {
   for (const int teeth : {8, 24, 45, 100}) {
     const GearShape gear{.teeth = teeth, .bore_radius = 1e-3, .flank_points = 200};
     const std::vector<Vector2d> outline = outline_of(make_spur_gear(gear), gear);

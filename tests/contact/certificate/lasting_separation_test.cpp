@@ -77,7 +77,7 @@ struct PairsOfTrial {
 
 class LastingSeparation : public test_support::EveryInstructionSet {};
 
-TEST_P(LastingSeparation, IsAsWideAsItSaysAndNoWiderThanTheTrianglesAreApart) {
+TEST_P(LastingSeparation, GapsAtBothEndsHoldAndNeverExceedTheDistance) {
   constexpr std::uint64_t kSeed = 93;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -122,7 +122,7 @@ TrianglePoints between(const TrianglePoints& begin, const TrianglePoints& end, d
   return {begin[0] + t * (end[0] - begin[0]), begin[1] + t * (end[1] - begin[1]), begin[2] + t * (end[2] - begin[2])};
 }
 
-TEST_P(LastingSeparation, OfADirectionThatTurnsHoldsAllAlongTheStraightPath) {
+TEST_P(LastingSeparation, TurningDirectionSeparatesOnTheWholeStraightPath) {
   constexpr std::uint64_t kSeed = 97;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -155,7 +155,7 @@ TEST_P(LastingSeparation, OfADirectionThatTurnsHoldsAllAlongTheStraightPath) {
 }
 
 // Two needles that cross, and turn past each other: along any fixed direction, an end of one goes through the other.
-TEST_P(LastingSeparation, OfNeedlesThatTurnPastEachOtherTurnsWithThem) {
+TEST_P(LastingSeparation, CrossingNeedlesAreSeparatedByATurningDirection) {
   LastingSeparations separations;
   const auto about_y = [](double angle) {
     return CornerMap{Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix(), Vector3d(0.0, 0.0, 0.002)};
@@ -170,7 +170,7 @@ TEST_P(LastingSeparation, OfNeedlesThatTurnPastEachOtherTurnsWithThem) {
 
 // A facet of a ring about a shaft: an end of it goes through any plane that stays, but its own plane keeps the shaft
 // apart wherever the ring turns.
-TEST_P(LastingSeparation, OfARingThatTurnsAboutAShaftTurnsWithTheRing) {
+TEST_P(LastingSeparation, RingRotatingAboutAShaftGetsADirectionFixedToTheRing) {
   for (const bool may_turn_with_part : {true, false}) {
     LastingSeparations separations;
     const auto about_z = [](double angle) {
@@ -190,7 +190,7 @@ TEST_P(LastingSeparation, OfARingThatTurnsAboutAShaftTurnsWithTheRing) {
 }
 
 // The closest points lie ahead, along the way of the triangle: a direction through them fails on the next step.
-TEST_P(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
+TEST_P(LastingSeparation, TriangleSlidingOverAPlaneGetsThePlaneNormal) {
   LastingSeparations separations;
   const CornerMap begin{Eigen::Matrix3d::Identity(), Vector3d::Zero()};
   separations.start(begin, {begin.A, Vector3d(0.09, 0.0, 0.0)}, 1e-3, 1e-3);
@@ -203,7 +203,7 @@ TEST_P(LastingSeparation, OfATriangleThatSlidesOverAPlaneIsTheNormal) {
 }
 
 // Two edges that cross: neither normal separates the triangles, only the direction from edge to edge.
-TEST_P(LastingSeparation, OfCrossingEdgesIsThatOfTheClosestPoints) {
+TEST_P(LastingSeparation, CrossingEdgesGetTheClosestPointDirection) {
   LastingSeparations separations;
   const CornerMap begin{Eigen::Matrix3d::Identity(), Vector3d::Zero()};
   separations.start(begin, {begin.A, Vector3d(0.0, 0.0, 0.001)}, 1e-3, 1e-3);
@@ -216,7 +216,7 @@ TEST_P(LastingSeparation, OfCrossingEdgesIsThatOfTheClosestPoints) {
 }
 
 // Where a part turns and nothing else serves.
-TEST_P(LastingSeparation, IsAtTimesThatOfTheClosestPointsAtTheEnd) {
+TEST_P(LastingSeparation, SometimesUsesTheClosestPointsAtTheEnd) {
   constexpr std::uint64_t kSeed = 96;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -243,7 +243,7 @@ TEST_P(LastingSeparation, IsAtTimesThatOfTheClosestPointsAtTheEnd) {
 }
 
 // A pair's direction does not depend on the others that are looked at with it.
-TEST_P(LastingSeparation, IsThatOfThePairAlone) {
+TEST_P(LastingSeparation, PairsOfABatchAreIndependent) {
   constexpr std::uint64_t kSeed = 95;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -262,7 +262,7 @@ TEST_P(LastingSeparation, IsThatOfThePairAlone) {
   }
 }
 
-TEST_P(LastingSeparation, IsThatOfPlainCodeToTheBit) {
+TEST_P(LastingSeparation, VectorCodeMatchesScalarCodeBitwise) {
   constexpr std::uint64_t kSeed = 94;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);

@@ -46,7 +46,7 @@ class BodiesInStep : public testing::Test {
   geometry::Displacement way_{Vector3d(1e-3, 0.0, 0.0), Vector3d(0.0, 0.0, 0.1)};
 };
 
-TEST_F(BodiesInStep, StandWhereTheyAreWhileTheyDoNotMove) {
+TEST_F(BodiesInStep, ZeroDisplacementKeepsThePose) {
   MovingBodies bodies(scene_);
   bodies.begin_step(std::vector<geometry::Displacement>{{}, way_});  // the first has never moved
   expect_that_it_stands(bodies, 0);

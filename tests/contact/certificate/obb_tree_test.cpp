@@ -87,7 +87,7 @@ TEST(ObbTree, HoldAllTrianglesBelowOnEveryLevel) {
   }
 }
 
-TEST(ObbTree, OfSheetsAndToriHoldThemToo) {
+TEST(ObbTree, BoxesEncloseSheetsToriAndTubes) {
   for (const geometry::TriangleMesh& mesh :
        {geometry::make_plate({0.3, 0.2}, 3000), geometry::make_torus(0.2, 0.05, 3000),
         geometry::make_tube(0.1, 0.5, 3000)}) {
@@ -133,7 +133,7 @@ TEST(ObbTree, OfLowWallsInSinglePrecisionHaveOrthogonalAxes) {
 }
 
 // A proof at micrometres needs that: the thickness of a box comes off the gap.
-TEST(ObbTree, OfPlanePatchesAreAsFlatAsRoundingHoweverTheyLie) {
+TEST(ObbTree, BoxesOfPlanePatchesAreFlatWithinRounding) {
   constexpr std::uint64_t kSeed = 32;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);

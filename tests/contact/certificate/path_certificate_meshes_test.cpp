@@ -90,7 +90,7 @@ geometry::Displacement random_displacement(double gap, double radius, RandomNumb
   return {length * random.direction(), random.chance(0.2) ? Vector3d(Vector3d::Zero()) : angle * random.direction()};
 }
 
-TEST(PathCertificate, WhatIsProvedOfRandomMeshesHoldsAllAlong) {
+TEST(PathCertificate, CertifiedPathsOfRandomMeshesKeepMinimumClearance) {
   constexpr std::uint64_t kSeed = 51;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -124,7 +124,7 @@ TEST(PathCertificate, WhatIsProvedOfRandomMeshesHoldsAllAlong) {
 
 // The planes that a step leaves serve for the next ones. Parts turn far about points of their own, so that a plane that
 // turns with them may lose much between the ends of a step.
-TEST(PathCertificate, WhatPlanesOfEarlierStepsProveHoldsAllAlong) {
+TEST(PathCertificate, PathsCertifiedByEarlierPlanesKeepMinimumClearance) {
   constexpr std::uint64_t kSeed = 52;
   constexpr double kRadius = 10e-3;
   RecordProperty("seed", static_cast<int>(kSeed));
@@ -192,14 +192,14 @@ class FinePlates : public ::testing::Test {
   static double floor() { return kMinClearanceOfMargin * kMargin; }
 };
 
-TEST_F(FinePlates, ThatSlideFlushOneMarginApartAreProvedByAFewBoxes) {
+TEST_F(FinePlates, FlushSlidingOneMarginApartIsCertifiedByAFewBoxPairs) {
   const Proof proof = prove(at_height(kMargin), {{{1e-3, 2e-3, 0.0}, {0.0, 0.0, 0.01}}});
   EXPECT_TRUE(proof.holds);
   EXPECT_LE(proof.to_certify, 16U) << "of 16 million pairs of triangles: the children of the roots";
   EXPECT_EQ(proof.boxes, proof.to_certify);
 }
 
-TEST_F(FinePlates, AreNotProvedToComeNearerThanTheFloor) {
+TEST_F(FinePlates, ApproachBelowMinimumClearanceIsNotCertified) {
   const double h = kMargin - floor();
   EXPECT_TRUE(prove(at_height(kMargin), {{{1e-4, 0.0, -0.999 * h}, Vector3d::Zero()}}).holds);
   const Proof proof = prove(at_height(kMargin), {{{1e-4, 0.0, -1.001 * h}, Vector3d::Zero()}});
@@ -209,7 +209,7 @@ TEST_F(FinePlates, AreNotProvedToComeNearerThanTheFloor) {
 }
 
 // The boxes are taken as a whole where they are now, and one end of the part comes near.
-TEST_F(FinePlates, ThatTiltAreProvedAsLongAsTheLowestCornerKeepsTheFloor) {
+TEST_F(FinePlates, TiltIsCertifiedWhileTheLowestCornerKeepsMinimumClearance) {
   const double z = 20e-6;
   const ContactScene scene = at_height(z);
   const Vector3d across = test_support::turn(0.3, Vector3d::UnitZ()) * Vector3d::UnitY();  // the part's y axis
@@ -229,7 +229,7 @@ TEST_F(FinePlates, ThatTiltAreProvedAsLongAsTheLowestCornerKeepsTheFloor) {
 
 // A rod turns about its middle above a table: at both ends of the step its tip is high, in between it is lower by
 // ρ (1 − cos(θ/2)).
-TEST(PathCertificate, ATipThatSwingsLowIsNotProvedByBothEndsOfItsWay) {
+TEST(PathCertificate, TipLowestInMidSwingIsNotCertifiedByItsEndPoses) {
   constexpr double kMargin = 0.1e-3;
   constexpr double kTurn = 0.2;  // radians
   const Obstacle table = test_support::obstacle_of(geometry::make_plate({1.0, 1.0}, 100));

@@ -59,7 +59,7 @@ class TwoTriangles : public ::testing::Test {
   std::shared_ptr<const SlidingPart> part_ = std::make_shared<SlidingPart>(one_triangle(0.0));
 };
 
-TEST_F(TwoTriangles, ApproachIsProvedDownToTheFloorAndNotBelow) {
+TEST_F(TwoTriangles, ApproachIsCertifiedOnlyDownToTheMinimumClearance) {
   const geometry::Displacement down{{0.0, 0.0, -1e-3}, Eigen::Vector3d::Zero()};
   EXPECT_TRUE(proves(at_height(1e-3 + 1.01 * kFloor), down));
   EXPECT_FALSE(proves(at_height(1e-3 + 0.99 * kFloor), down));
@@ -91,7 +91,7 @@ TEST_F(TwoTriangles, NeedlesThatTurnPastEachOtherAreProvedInOneStretch) {
 }
 
 // The part turns in its plane, so that its normal stays, too, but what that may lose between the ends is not known.
-TEST_F(TwoTriangles, APlaneThatTurnsWithThePartMustSeparateFartherThanOneThatStays) {
+TEST_F(TwoTriangles, PlaneFixedToThePartNeedsALargerGapThanOneFixedToTheObstacle) {
   ContactScene scene(obstacles_, std::vector{part_}, std::vector{kFloor / kMinClearanceOfMargin});
   const std::vector<geometry::Displacement> turn{{Eigen::Vector3d::Zero(), {0.0, 0.0, 0.1}}};
   PathCertificate certificate(scene);
@@ -141,7 +141,7 @@ TEST_F(TwoTriangles, TurningThroughIsNotProvedThoughBothEndsAreFree) {
   EXPECT_TRUE(proves(at_height(3.0), flip));
 }
 
-TEST_F(TwoTriangles, APairThatStartsNearerThanTheFloorMayStayButHardlyApproach) {
+TEST_F(TwoTriangles, PairBelowMinimumClearanceMayHardlyApproach) {
   const double gap = 0.5 * kFloor;
   EXPECT_TRUE(proves(at_height(gap), {{1e-3, 0.0, 0.0}, Eigen::Vector3d::Zero()}));
   EXPECT_TRUE(proves(at_height(gap), {{0.0, 0.0, -0.04 * gap}, Eigen::Vector3d::Zero()}));
@@ -150,7 +150,7 @@ TEST_F(TwoTriangles, APairThatStartsNearerThanTheFloorMayStayButHardlyApproach) 
 
 // Between the ends of a step, a height along a direction that turns falls below the lesser end by at most what the
 // certificate asks for in advance. Some heights fall by most of it.
-TEST(PathCertificate, AsksOfADirectionThatTurnsForWhatItMayLose) {
+TEST(PathCertificate, GapNeededByATurningDirectionBoundsItsLossBetweenTheEnds) {
   constexpr std::uint64_t kSeed = 15;
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
@@ -188,7 +188,7 @@ TEST(PathCertificate, AsksOfADirectionThatTurnsForWhatItMayLose) {
 }
 
 // What was proved must hold at every moment of the way, by the exact predicate and by distance.
-TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
+TEST(PathCertificate, CertifiedRandomPathsKeepMinimumClearance) {
   constexpr unsigned kSeed = 13;
   constexpr int kTrials = test_support::affordable(2000);
   SCOPED_TRACE("seed " + std::to_string(kSeed));
@@ -228,7 +228,7 @@ TEST(PathCertificate, WhatIsProvedHoldsAllAlongRandomPaths) {
 }
 
 // Directions are fixed to the world then, or turn in it, and both triangles go past them.
-TEST(PathCertificate, WhatIsProvedOfTwoPartsHoldsAllAlongTheirPaths) {
+TEST(PathCertificate, CertifiedPathsOfTwoPartsKeepMinimumClearance) {
   constexpr unsigned kSeed = 14;
   constexpr int kTrials = test_support::affordable(2000);
   SCOPED_TRACE("seed " + std::to_string(kSeed));

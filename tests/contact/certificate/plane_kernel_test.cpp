@@ -48,7 +48,7 @@ class PlaneKernel : public test_support::EveryInstructionSet {
   RandomNumbers random_;
 };
 
-TEST_P(PlaneKernel, RaisesGapsToWhatIsKnownAndNoFarther) {
+TEST_P(PlaneKernel, RaisesGapsToTheKnownGapsMinusTheClock) {
   for (int trial = 0; trial < kTrials; ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
     const std::vector<float> known = numbers(kBlocks * kPlanesAtOnce);
@@ -82,7 +82,7 @@ TEST_P(PlaneKernel, FindsThePairsWithinALimit) {
   }
 }
 
-TEST_P(PlaneKernel, FindsThePairsThatNeedMore) {
+TEST_P(PlaneKernel, FindsUnprovedPairs) {
   for (int trial = 0; trial < kTrials; ++trial) {
     SCOPED_TRACE("trial " + std::to_string(trial));
     const std::vector<float> at_begin = numbers(kPlanesAtOnce);

@@ -46,7 +46,7 @@ double height_over(std::span<const PlacedBody> bodies, const TrianglesOfBodies& 
 }
 
 // Poses may deviate from a rotation by 1e-12, many times the rounding of a certificate.
-TEST(RelativePose, TakesAPointToWhereBothPosesPutIt) {
+TEST(RelativePose, MatchesBothPosesForInexactRotations) {
   Isometry3d X_WO(Eigen::AngleAxisd(0.7, Vector3d(1.0, 2.0, 3.0).normalized()));
   X_WO.linear() *= 1.0 + 1e-13;
   X_WO.linear()(0, 1) += 1e-13;

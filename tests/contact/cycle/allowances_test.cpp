@@ -77,7 +77,7 @@ TEST(Overlap, APartThatIsHeldStillComesOutAtLimitedSpeedAndStaysOut) {
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.019, 1e-6);
 }
 
-TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
+TEST(Overlap, DoesNotDeepenAndOtherObstaclesStillBlock) {
   // A second block leaves 0.4 mm of the 1 mm that the way out takes.
   Obstacle lid = block();
   lid.X_WO.translation().z() = 0.05 + 0.0194;
@@ -90,7 +90,7 @@ TEST(Overlap, IsNotLetDeeperAndOtherObstaclesHoldAllTheWhile) {
   }
 }
 
-TEST(Overlap, AHandThatTurnsDoesNotTurnThePartIn) {
+TEST(Overlap, RotatingGhostDoesNotDeepenIt) {
   const auto rod = std::make_shared<SlidingPart>(box({0.2, 0.01, 0.01}));
   Sliding sliding({block()}, rod, pose({0.0, 0.0, 0.0049}), {.rules = {.overlap = OverlapRule::kDepenetrate}});
   Isometry3d X_WG = sliding.result().X_WG;
@@ -114,7 +114,7 @@ TEST(Overlap, IsNoneWherePartsOnlyTouch) {
   }
 }
 
-TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
+TEST(GivingWay, WithoutSpringTrianglesAUnitReachesTheFloorAndComesOut) {
   // A bay: a floor, and two springs that reach 0.5 mm into the unit's sides when it is home.
   const geometry::TriangleMesh floor = geometry::make_plate({0.2, 0.2}, 2);
   std::vector<geometry::TriangleMesh> meshes{floor};
@@ -143,7 +143,7 @@ TEST(GivingWay, LetsAUnitSlideHomeOverItsSpringsAndOutAgain) {
   EXPECT_NEAR(depth_reached(), 0.01, 1e-5) << "with it the floor holds, as exactly as ever";
 }
 
-TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
+TEST(Margin, ObstacleMarginReplacesThePartMargin) {
   const auto height = [](std::optional<double> margin) {
     Obstacle obstacle = block();
     obstacle.margin = margin;
@@ -157,7 +157,7 @@ TEST(Margin, OfAnObstacleReplacesThatOfThePart) {
   EXPECT_NEAR(height(50e-6), 50e-6, 1e-8);
 }
 
-TEST(Margin, IsSmallBesideAStep) {
+TEST(Margin, TooLargeIsRefused) {
   Obstacle obstacle = block();
   obstacle.margin = 0.3e-3;
   EXPECT_THROW(Sliding({obstacle}, cube(0.02), pose({0.0, 0.0, 0.011})), std::invalid_argument);
@@ -165,7 +165,7 @@ TEST(Margin, IsSmallBesideAStep) {
                std::invalid_argument);
 }
 
-TEST(SpiralSearch, GetsAPegInThatIsHeldAskewAndLeavesAloneWhatIsNotStuck) {
+TEST(SpiralSearch, InsertsTiltedPegsThatJamWithoutIt) {
   if (test_support::kSanitized) GTEST_SKIP() << "takes minutes under a sanitizer";
   const auto depth_reached = [](bool spiral_search, const test_support::PegTrial& trial) {
     const test_support::SlidingScene scene = test_support::peg_scene(trial);

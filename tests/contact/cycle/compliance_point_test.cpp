@@ -50,7 +50,7 @@ TEST(CompliancePoint, APushAtTheTipDoesNotTurnThePart) {
   EXPECT_GT(turn_at_the_wall(std::make_shared<SlidingPart>(rod())), 1e-2) << "a push at the middle tips it";
 }
 
-TEST(CompliancePoint, IsThatOfTheHoldUntilTheHandLetsGo) {
+TEST(CompliancePoint, GraspPointAppliesUntilRelease) {
   const Obstacle wall = test_support::obstacle_of(geometry::make_box({0.1, 0.4, 0.02}, 12), at(0.1, 0.0, -0.1));
   const auto part_V = std::make_shared<SlidingPart>(rod());
   MultiPartSliding sliding({wall}, {{part_V, at(0.03)}});
@@ -78,7 +78,7 @@ Wrench coupling_of(const MultiPartSliding& sliding) {
   return about_point(about_reference, sliding.result(0).X_WV * sliding.p_Vref(0), Vector3d::Zero());
 }
 
-TEST(CompliancePoint, MovesWithoutAChangeOfTheWrench) {
+TEST(CompliancePoint, GraspAtAnotherPointKeepsTheWrench) {
   const Obstacle wall = test_support::obstacle_of(geometry::make_box({0.1, 0.4, 0.02}, 12), at(0.1, 0.0, -0.1));
   MultiPartSliding sliding({wall}, {{std::make_shared<SlidingPart>(rod()), at(0.03)}});
   sliding.release(0);
@@ -97,7 +97,7 @@ TEST(CompliancePoint, MovesWithoutAChangeOfTheWrench) {
 }
 
 // A point far from the part makes small rotations large motions: the proof of the way has to know that.
-TEST(CompliancePoint, OfAHoldKeepsThePartOutOfWallsWhereverItIs) {
+TEST(CompliancePoint, DistantGraspPointCausesNoCollision) {
   const auto mesh = rod();
   const auto wall = std::make_shared<geometry::TriangleMesh>(geometry::make_box({0.1, 0.4, 0.4}, 12));
   const reference::GridCheck check({{wall, at(0.07)}});
@@ -207,7 +207,7 @@ TEST_F(SquarePeg, TipsAndSometimesJamsIfTheHandActsAtItsMiddle) {
 }
 
 // A hundred searches, which take half a minute: GLISSADE_PEGS=100.
-TEST_F(SquarePeg, IsBroughtInByTheSpiralSearchElsewhere) {
+TEST_F(SquarePeg, SpiralSearchInsertsMostPegsIfTheHandActsAtTheMiddle) {
   const char* const wish = std::getenv("GLISSADE_PEGS");
   const int trials = wish != nullptr ? std::max(1, std::atoi(wish)) : 10;
   EXPECT_GE(10 * got_in(trials, std::nullopt, true), 9 * trials);

@@ -76,7 +76,7 @@ Features identity_of(const Contact& contact) {
   return {static_cast<std::int32_t>(contact.kind), contact.part_feature, contact.obstacle_feature};
 }
 
-TEST(ContactRows, AreMissingOnlyWhereTheStepLeavesTheTrianglesAMarginApart) {
+TEST(ContactRows, OmittedOnlyWhereTheStepKeepsTheMargin) {
   constexpr std::uint64_t kSeed = 94;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -127,7 +127,7 @@ TEST(ContactRows, AreMissingOnlyWhereTheStepLeavesTheTrianglesAMarginApart) {
   EXPECT_LT(2 * needed, all);
 }
 
-TEST(ContactRows, HaveAllContactsWithinTheDistanceThatTheyTell) {
+TEST(ContactRows, AllContactsWithinTheReportedDistanceAreFound) {
   constexpr std::uint64_t kSeed = 95;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);

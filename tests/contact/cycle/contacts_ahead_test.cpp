@@ -73,7 +73,7 @@ double way_on_fine_meshes(std::size_t affordable) {
   return way;
 }
 
-TEST(AffordablePairs, LetSearchesOnFineMeshesLookLessFar) {
+TEST(AffordablePairs, LowLimitShortensTheReachOnFineMeshes) {
   EXPECT_NEAR(way_on_fine_meshes(30'000), 1e-3, 0.1e-3);
   EXPECT_LE(way_on_fine_meshes(10), 3 * 0.2e-3) << "the least that a cycle looks";
   EXPECT_GE(way_on_fine_meshes(10), 2 * 0.2e-3);

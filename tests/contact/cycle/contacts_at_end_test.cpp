@@ -16,7 +16,7 @@ namespace {
 using Eigen::Vector3d;
 
 // Facet follows facet here, and no step tells what the next one finds.
-TEST(SlidingOverFacets, IsFeltByTheContactsWhereThePartIs) {
+TEST(SlidingOverFacets, ContactForcesBalanceTheSpringAtTheFinalPose) {
   constexpr double kSphere = 0.1;
   constexpr double kBall = 0.02;
   constexpr double kPressed = 3e-3;  // metres, of the ghost below

@@ -149,7 +149,7 @@ TEST_P(FlushFits, ComeOutAlongTheFreeDirection) {
   }
 }
 
-TEST_P(FlushFits, ComeOutOfAHandThatPullsAskew) {
+TEST_P(FlushFits, ComeOutIfPulledAskew) {
   for (const Isometry3d& X_WA : somewhere(100 + GetParam())) {
     FlushFit flush(fit(), X_WA);
     const Vector3d askew = fit().way_out + 1e-3 * fit().blocked.front();
@@ -203,7 +203,7 @@ const NominalFit& fit_of(const std::string& name) {
 }
 
 // Statics: a force across the peg, in the middle of it, is held at the rim of the sleeve and at the end of the peg.
-TEST(FlushFit, FrictionIsThatOfTheForcesWhichHoldAPullAside) {
+TEST(FlushFit, FrictionOfALateralPullMatchesStatics) {
   constexpr double kFriction = 0.2;
   constexpr double kAside = 0.5e-3;
   FlushFit flush(fit_of("peg in its sleeve"), Isometry3d::Identity(), 0.0, OverlapRule::kRefuse, kFriction);
@@ -242,7 +242,7 @@ TEST(NarrowSlot, APartRestsInItWithoutGoingToAndFro) {
 }
 
 // The haptic thread takes its constraints from gap and margin.
-TEST(NarrowSlot, ContactsStopThePartNoEarlierThanTheyMust) {
+TEST(NarrowSlot, ContactMarginIsLessThanTheGap) {
   const auto wall = geometry::make_box({0.02, 0.1, 0.1}, 12);
   const double half = 0.01 + 0.45 * kMarginOfFits;
   Sliding sliding({obstacle_of(wall, pose({half + 0.01, 0.0, 0.0})), obstacle_of(wall, pose({-half - 0.01, 0.0, 0.0}))},
@@ -293,7 +293,7 @@ TEST(TouchingParts, GetNoDeeperWhereACornerTouches) {
   EXPECT_NEAR(lead(-1e-3), kMarginOfFits, 0.01 * kMarginOfFits) << "once it was apart, it is a part like any other";
 }
 
-TEST(TouchingParts, AnOpenOneLiesFlatAndGoesWhereItIsFree) {
+TEST(TouchingParts, OpenMeshLiesFlatSlidesAndLiftsOff) {
   const auto plate = part_of(geometry::make_plate({0.04, 0.04}, 2));
   Sliding sliding({obstacle_of(geometry::make_box({0.2, 0.2, 0.02}, 12), pose({0.0, 0.0, -0.01}))}, plate,
                   Isometry3d::Identity(), {.rules = {.margin = kMarginOfFits}});
@@ -308,7 +308,7 @@ TEST(TouchingParts, AnOpenOneLiesFlatAndGoesWhereItIsFree) {
   EXPECT_LT((lead({5e-3, 3e-3, 4e-3}) - Vector3d(5e-3, 3e-3, 4e-3)).norm(), 1e-9);
 }
 
-TEST(TouchingParts, AnOpenOneSlidesBetweenTwoBodiesAndIsRefusedBetweenTwoFacesOfOne) {
+TEST(TouchingParts, OpenMeshSlidesBetweenTwoBodiesButIsRefusedBetweenFacesOfOne) {
   const auto plate = part_of(geometry::make_plate({0.04, 0.04}, 2));
   const geometry::TriangleMesh box = geometry::make_box({0.2, 0.2, 0.02}, 12);
   Sliding sliding({obstacle_of(box, pose({0.0, 0.0, -0.01})), obstacle_of(box, pose({0.0, 0.0, 0.01}))}, plate,
@@ -329,7 +329,7 @@ double depth_of(const NominalFit& fit, double overlap) {
   return depth;
 }
 
-TEST(OverlapDepth, IsNoneWherePartsOnlyTouchAndElseWhatTheyOverlap) {
+TEST(OverlapDepth, ZeroForTouchingPartsElseTheOverlap) {
   for (const NominalFit& fit : nominal_fits()) {
     EXPECT_EQ(depth_of(fit, 0.0), 0.0) << fit.name;
     EXPECT_NEAR(depth_of(fit, 0.1e-3), 0.1e-3, 1e-6) << fit.name;
@@ -343,7 +343,7 @@ TEST(OverlapDepth, DoesNotDependOnTheOrientationOfTriangles) {
   EXPECT_NEAR(overlap_depth(*sleeve, *peg, Isometry3d::Identity()), 0.1e-3, 1e-6);
 }
 
-TEST(OverlapDepth, OfAPartThatIsStuckInASheetIsTheWayOut) {
+TEST(OverlapDepth, PartInASheetHasTheDepthOfTheShortestWayOut) {
   const auto sheet = obstacle_of(geometry::make_plate({0.4, 0.4}, 2)).body;
   EXPECT_NEAR(overlap_depth(*sheet, *test_support::cube(0.02), pose({0.0, 0.0, 0.0})), 0.01, 1e-4);
   EXPECT_NEAR(overlap_depth(*sheet, *test_support::cube(0.02), pose({0.0, 0.0, 0.008})), 0.002, 1e-5);

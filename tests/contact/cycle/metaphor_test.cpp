@@ -90,7 +90,7 @@ TEST(RubberBandSpring, HoldsATiltedPartUpByItsTorque) {
   EXPECT_GT(sliding.lag().w.norm(), 0.02);
 }
 
-TEST(Incremental, ForgetsWhatTheFloorRefuses) {
+TEST(Incremental, DiscardsMotionBlockedByTheFloor) {
   Sliding sliding = box_above_floor(Metaphor::kIncremental, tilted_at(0.0, kRest + 1e-3));
   lead(sliding, tilted_at(0.0, kRest - 3e-3), 40);  // 1 mm to the floor, 3 mm refused
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), kRest, 2.0 * sliding.margin());
@@ -115,7 +115,7 @@ TEST(Incremental, GraspAndReleaseAreItsClutch) {
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2, 1e-12) << "twice the reach of the hand";
 }
 
-TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPull) {
+TEST(Grasp, OffsetClosesAtLimitedSpeedWithoutForce) {
   Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, 0.1));
   sliding.release();
   EXPECT_EQ(sliding.result().state, SlidingState::kReleased);
@@ -137,7 +137,7 @@ TEST(Grasp, AtAnOffsetMovesThePartAtALimitedSpeedUnderForceFeedbackAndDoesNotPul
 }
 
 // Steps as long as the greatest reach allows, half a turn around: what a step misses is searched in parts.
-TEST(Metaphor, WithoutSpeedLimitCatchesUpWithAGhostThatTurnedRoundAndGoesOn) {
+TEST(Metaphor, WithoutSpeedLimitCatchesUpAfterHalfATurnOfTheGhost) {
   Sliding sliding = box_above_floor(Metaphor::kRubberBandSpring, tilted_at(0.0, 0.2));
   for (int i = 1; i <= 60; ++i) {
     sliding.advance(tilted_at(2e-3 * i, 0.2, 3.0));
@@ -147,7 +147,7 @@ TEST(Metaphor, WithoutSpeedLimitCatchesUpWithAGhostThatTurnedRoundAndGoesOn) {
   EXPECT_LT(sliding.lag().w.norm(), 1e-9);
 }
 
-TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
+TEST(Grasp, OffsetBehindTheFloorRaisesTheForceAtTheSlew) {
   Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, kRest + 1e-3));
   sliding.release();
   const Isometry3d X_WG = tilted_at(0.0, kRest - 9e-3);
@@ -167,7 +167,7 @@ TEST(Grasp, AtAnOffsetBehindTheFloorPullsHarderOnlyAsFastAsTheSlew) {
   EXPECT_EQ(sliding.lag().v, Vector3d::Zero());
 }
 
-TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {
+TEST(Grasp, RepeatedReleaseAndGraspDoNotMoveAPressedPart) {
   Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, kRest + 1e-3));
   lead(sliding, tilted_at(0.0, kRest - 1e-3), 40);
   ASSERT_EQ(sliding.result().state, SlidingState::kResting);
@@ -184,7 +184,7 @@ TEST(Grasp, IsLeftAndTakenAThousandTimesWithoutMovingAPartThatPresses) {
   EXPECT_NEAR(sliding.result().X_WV.translation().z(), X_WV.translation().z(), 2.0 * sliding.margin());
 }
 
-TEST(Grasp, WithAPoseThatIsNoneChangesNothing) {
+TEST(Grasp, InvalidPoseIsIgnored) {
   Sliding sliding = box_above_floor(Metaphor::kForceFeedback, tilted_at(0.0, 0.1));
   sliding.release();
   sliding.grasp(Isometry3d(Eigen::Scaling(2.0) * Isometry3d::Identity().matrix().topLeftCorner<3, 3>()));

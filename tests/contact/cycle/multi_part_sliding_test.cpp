@@ -96,7 +96,7 @@ TEST(TwoParts, ThatDoNotTouchMoveAsIfAlone) {
   EXPECT_EQ(sliding.result(0).state, SlidingState::kCatchingUp);
 }
 
-TEST(TwoParts, OneThatCannotBeProvedDoesNotKeepTheOther) {
+TEST(TwoParts, UncertifiablePartDoesNotBlockTheOther) {
   // The first is squeezed into a slot narrower than any proof; the second is far away from everything.
   const double gap = 1e-13;
   const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({0.0, 0.0, 0.0})},
@@ -106,7 +106,7 @@ TEST(TwoParts, OneThatCannotBeProvedDoesNotKeepTheOther) {
   EXPECT_NEAR(sliding.result(1).X_WV.translation().x(), -0.32, 1e-9);
 }
 
-TEST(TwoParts, FrictionTakesNoNoticeOfAPartThatDoesNotTouch) {
+TEST(TwoParts, FrictionIsIndependentOfAPartWithoutContact) {
   // The first is pressed on the wall by 1 N and drawn by 0.5 N, less than 0.8 holds; the other hand moves in the air.
   const std::vector<HeldPart> parts{{.part_V = cube(0.04), .X_WV_start = pose({-0.0201, 0.0, 0.0})},
                                     {.part_V = cube(0.04), .X_WV_start = pose({-0.3, 0.0, 0.0})}};
@@ -179,7 +179,7 @@ TEST(ReleasedPart, LeavesFrictionOfTheOtherAsItIs) {
   }
 }
 
-TEST(MultiPartSliding, APoseThatIsNoneLeavesItsPartWhereItIs) {
+TEST(MultiPartSliding, InvalidPoseLeavesItsPartInPlace) {
   const Isometry3d X_WV = pose({-0.3, 0.0, 0.0});
   MultiPartSliding sliding({wall(1.0)}, {{.part_V = cube(0.04)}, {.part_V = cube(0.04), .X_WV_start = X_WV}});
   const std::array X_WG{pose({0.01, 0.0, 0.0}), pose({std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0})};
@@ -188,7 +188,7 @@ TEST(MultiPartSliding, APoseThatIsNoneLeavesItsPartWhereItIs) {
   EXPECT_EQ(sliding.result(1).X_WV.matrix(), X_WV.matrix());
 }
 
-TEST(MultiPartSliding, RefusesWhatItCannotSimulate) {
+TEST(MultiPartSliding, RefusesInvalidPartsAndOptions) {
   const HeldPart one{.part_V = cube(0.02)};
   EXPECT_THROW(MultiPartSliding({wall(1.0)}, {}), std::invalid_argument);
   EXPECT_THROW(MultiPartSliding({wall(1.0)}, {one, one}), std::invalid_argument) << "they overlap";

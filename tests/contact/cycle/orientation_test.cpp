@@ -35,7 +35,7 @@ TriangleMesh joined(TriangleMesh mesh, const TriangleMesh& other) {
   return mesh;
 }
 
-TEST(Encloses, WhatIsInsideWhateverTheNormals) {
+TEST(Encloses, InteriorPointsForAnyTriangleOrientation) {
   EXPECT_TRUE(encloses(box_of(2.0), {0.9, 0.9, 0.9}));
   EXPECT_FALSE(encloses(box_of(2.0), {0.9, 0.9, 1.1}));
   EXPECT_TRUE(encloses(turned_inside_out(box_of(2.0)), {0.9, 0.9, 0.9}));

@@ -60,7 +60,7 @@ TEST(RestWatch, APartRestsWhereItsContactsWouldLeadItInACircle) {
   }
 }
 
-TEST(RestWatch, NoticesToAndFroOnlyWhereNothingGetsAnywhere) {
+TEST(RestWatch, RestlessOnlyIfNeitherPartNorTargetAdvances) {
   const auto restless = [](double part_m, double target_m) {
     RestWatch watch;
     for (int ms = 0; ms < 1000; ++ms)
@@ -78,7 +78,7 @@ TEST(RestWatch, NoticesToAndFroOnlyWhereNothingGetsAnywhere) {
 }
 
 // Else it would come back from there, again and again.
-TEST(RestWatch, ARestlessPartThatFindsABetterPlaceStaysRestlessUntilItsTargetMoves) {
+TEST(RestWatch, StaysRestlessAtABetterPlaceUntilTheTargetMoves) {
   RestWatch watch;
   for (int ms = 0; ms < 300; ++ms)
     watch.observe(at(0.0), at(0.01), Vector3d::Zero(), 0.05, true, 1.0);
@@ -90,7 +90,7 @@ TEST(RestWatch, ARestlessPartThatFindsABetterPlaceStaysRestlessUntilItsTargetMov
   EXPECT_FALSE(watch.is_restless());
 }
 
-TEST(SpiralSearch, EndsAndLeavesThePegInTheHoleThatItHasFound) {
+TEST(SpiralSearch, EndsWithThePegInTheHole) {
   PegOverHole peg(4e-3, 4.1e-3, 9e-3, true);
   const auto depth = [&] { return -peg.advance(1.2e-3, 2e-3).X_WV.translation().z(); };
   int found_ms = 0;

@@ -112,7 +112,7 @@ TEST_F(CubeAndRider, ARiderFarFromThePartLimitsItsTurns) {
 }
 
 // Hands may come into each other: nothing stops them.
-TEST(Riders, OfTwoChainsInsideEachOtherHoldUpNoPart) {
+TEST(Riders, OverlappingRidersOfTwoChainsDoNotBlockAPart) {
   MultiPartSliding sliding({wall(0.1)}, {{.part_V = cube(0.04)}}, {},
                            {{{cube(0.02)}, kMarginOfRider_m}, {{cube(0.02)}, kMarginOfRider_m}});
   sliding.place_riders(0, std::array{pose({0.0, 0.0, 0.035})});

@@ -60,7 +60,7 @@ TEST(ScriptedPart, PushesThePartOutOfItsWayAndTheHandFeelsIt) {
     EXPECT_EQ(contact.obstacle, 2) << "of the bodies: the wall, the part, and then what moves";
 }
 
-TEST(ScriptedPart, TellsItsSpeedWithTheContact) {
+TEST(ScriptedPart, ContactReportsTheApproachSpeed) {
   Sliding sliding = cube_before(ram(), 1.0);
   wait(sliding, 80);
   ASSERT_FALSE(sliding.result().contacts.empty());
@@ -78,7 +78,7 @@ TEST(ScriptedPart, WaitsWhereThePartCannotGiveWay) {
   EXPECT_NEAR(x_of(sliding.scripted_X_WB()[0]), -0.022, 2.0 * kTwoMargins);
 }
 
-TEST(ScriptedPart, HeldAsByAHandSharesTheLagWithIt) {
+TEST(ScriptedPart, GripStiffnessSharesTheLagWithTheHand) {
   ScriptedPart other_hand = ram();
   other_hand.grip_N_per_m = 1000.0;
   Sliding sliding = cube_before(other_hand, 1.0);
@@ -87,7 +87,7 @@ TEST(ScriptedPart, HeldAsByAHandSharesTheLagWithIt) {
   EXPECT_NEAR(x_of(sliding.scripted_X_WB()[0]), -0.0225, kTwoMargins);
 }
 
-TEST(ScriptedPart, GoesByTheTimeThatCallsTell) {
+TEST(ScriptedPart, FollowsTheTimeOfCalls) {
   ScriptedPart late = ram();
   late.start = milliseconds(40);
   Sliding sliding({wall(1.0)}, cube(0.02), pose({0.1, 0.0, 0.0}), {}, {late});
@@ -103,7 +103,7 @@ TEST(ScriptedPart, GoesByTheTimeThatCallsTell) {
   expect_at(43.5);
 }
 
-TEST(ScriptedPart, GoesOnWhileNobodyHoldsThePartWhichIsAnObstacleThen) {
+TEST(ScriptedPart, StopsAtAReleasedPart) {
   Sliding sliding = cube_before(ram(), 1.0);
   sliding.release();
   wait(sliding, 150);
@@ -124,7 +124,7 @@ TEST(ScriptedPart, LeavesThePartAloneWhereTheyDoNotMeet) {
   }
 }
 
-TEST(ScriptedPart, IsToldInContactsWhereItIsNow) {
+TEST(ScriptedPart, ContactsReferToItsCurrentPose) {
   // It comes near, by 1 mm in 10 ms, and goes away again, and never touches.
   ScriptedPart visitor = ram();
   visitor.script_X_WB = geometry::PoseTrajectory({{milliseconds(0), pose({-0.0262, 0.0, 0.0})},
@@ -162,7 +162,7 @@ TEST(ScriptedPart, IsRefusedWhereItCollidesAtItsStart) {
   EXPECT_THROW(cube_before(inside, 1.0), std::invalid_argument);
 }
 
-TEST(ScriptedPart, IsNothingThatThePapersMethodKnows) {
+TEST(ScriptedPart, IsRefusedByThePaperMethod) {
   EXPECT_THROW(reference::make_sliding(reference::SlidingMethod::kPaper, {wall(1.0)}, cube(0.02),
                                        pose({0.005, 0.0, 0.0}), {}, {ram()}),
                std::invalid_argument);

@@ -88,7 +88,7 @@ TEST(SlidingScene, ANutFollowsTheThread) {
   EXPECT_NEAR(nut_advance(scene, sliding.result().X_WV), 0.2e-3, 53e-6);
 }
 
-TEST(SlidingScene, AUnitComesHomeIntoItsBayAndOutAgainOnlyIfTheTonguesGiveWay) {
+TEST(SlidingScene, UnitReachesItsSeatOnlyIfTheTonguesGiveWay) {
   if (kSanitized) GTEST_SKIP() << "takes half a minute under a sanitizer";
   for (const bool tongues_give_way : {true, false}) {
     const SlidingScene scene = bay_scene(tongues_give_way);

@@ -230,7 +230,7 @@ TEST(Sliding, UnderForceFeedbackThePartCatchesUpNoFasterThanTheSlew) {
   EXPECT_LE(greatest_catch_up(Metaphor::kForceFeedback), kSlew_m * (1.0 + 1e-9));
 }
 
-TEST(Sliding, ACallThatComesLateCatchesUpForAllOfItsTime) {
+TEST(Sliding, LateCallCatchesUpForItsElapsedTime) {
   const double catch_up = greatest_catch_up(Metaphor::kForceFeedback, 3.0);
   EXPECT_LE(catch_up, 3.0 * kSlew_m * (1.0 + 1e-9));
   EXPECT_GT(catch_up, 2.0 * kSlew_m);

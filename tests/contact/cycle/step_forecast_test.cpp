@@ -42,65 +42,65 @@ class StepForecasts : public ::testing::Test {
   StepForecast forecast_;
 };
 
-TEST_F(StepForecasts, KnowNothingOfAFirstStepAtTheBeginning) {
+TEST_F(StepForecasts, NoForecastForAFirstStepWithoutAnEarlierCall) {
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
 
-TEST_F(StepForecasts, TakeAStepToBeFollowedAsInAnEarlierCall) {
+TEST_F(StepForecasts, RemainderIsPredictedFromTheEarlierCall) {
   remainder_is_worthless({90e-6, 0.5e-6, 0.01e-6});
   EXPECT_TRUE(remainder_is_worthless({95e-6}));
   remainder_is_worthless({90e-6, 5e-6, 0.01e-6});
   EXPECT_FALSE(remainder_is_worthless({95e-6}));
 }
 
-TEST_F(StepForecasts, LearnNothingFromCallsThatEndedForOtherReasons) {
+TEST_F(StepForecasts, CallsThatDidNotConvergeAreIgnored) {
   EXPECT_FALSE(remainder_is_worthless({90e-6, 0.9e-6, 0.8e-6})) << "the limit of cycles may end it";
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
 
-TEST_F(StepForecasts, LookAgainAfterFourCalls) {
+TEST_F(StepForecasts, ForecastExpiresAfterFourCalls) {
   remainder_is_worthless({90e-6, 0.0});
   for (int call = 0; call < 4; ++call)
     EXPECT_TRUE(remainder_is_worthless({90e-6}));
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
 
-TEST_F(StepForecasts, AreSilentAboutStepsOfOtherLengths) {
+TEST_F(StepForecasts, NoForecastForStepsOfOtherLengths) {
   remainder_is_worthless({90e-6, 0.0});
   EXPECT_FALSE(remainder_is_worthless({30e-6}));
   EXPECT_FALSE(remainder_is_worthless({200e-6}));
 }
 
-TEST_F(StepForecasts, TakeWhatIsLeftToBeOfSecondOrder) {
+TEST_F(StepForecasts, RemainderIsQuadraticInTheStepLength) {
   remainder_is_worthless({60e-6, 0.4e-6, 0.0});
   EXPECT_TRUE(remainder_is_worthless({60e-6}));
   EXPECT_FALSE(remainder_is_worthless({110e-6})) << "1.3 µm";
 }
 
-TEST_F(StepForecasts, LeaveLessToTheNextCallWhereTheMotionIsLess) {
+TEST_F(StepForecasts, AllowedRemainderShrinksWithTheMotion) {
   remainder_is_worthless({100e-6, 0.4e-6, 0.0});
   EXPECT_TRUE(remainder_is_worthless({100e-6}));
   remainder_is_worthless({2e-6, 0.4e-6, 0.0});
   EXPECT_FALSE(remainder_is_worthless({2e-6})) << "a fifth of what it moved";
 }
 
-TEST_F(StepForecasts, TakeShortStepsToShrinkOn) {
+TEST_F(StepForecasts, ShortStepsArePredictedToShrinkGeometrically) {
   EXPECT_TRUE(remainder_is_worthless({2.0e-6, 0.2e-6})) << "0.02 µm would follow";
   EXPECT_FALSE(remainder_is_worthless({0.9e-6, 0.6e-6})) << "1.2 µm would follow";
 }
 
-TEST_F(StepForecasts, AreSilentAfterAStepThatWasShortened) {
+TEST_F(StepForecasts, NoForecastAfterAShortenedStep) {
   remainder_is_worthless({90e-6, 0.0});
   EXPECT_FALSE(remainder_is_worthless_after({step_of(90e-6, false)}));
 }
 
-TEST_F(StepForecasts, LearnNothingFromStepsThatWereShortened) {
+TEST_F(StepForecasts, CallsWithShortenedStepsAreIgnored) {
   remainder_is_worthless({90e-6, 0.0});
   remainder_is_worthless_after({step_of(90e-6), step_of(0.0, false)});
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
 
-TEST_F(StepForecasts, OfOnePartDoNotHideAnother) {
+TEST_F(StepForecasts, EachPartIsForecastSeparately) {
   parts_.push_back(parts_.front());
   const auto both = [](double first, double second) {
     Step step = step_of(first);
@@ -112,13 +112,13 @@ TEST_F(StepForecasts, OfOnePartDoNotHideAnother) {
   EXPECT_FALSE(remainder_is_worthless_after({both(90e-6, 3e-6)})) << "a quarter of what the slow one moved";
 }
 
-TEST_F(StepForecasts, LeaveNoMoreThanAtRestWhereItWouldNotBeMadeUpFor) {
+TEST_F(StepForecasts, IncrementalMetaphorAllowsLessRemainder) {
   parts_.front().metaphor = Metaphor::kIncremental;
   remainder_is_worthless({90e-6, 0.5e-6, 0.0});
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
 }
 
-TEST_F(StepForecasts, ForgetWhatWasBeforeANewHold) {
+TEST_F(StepForecasts, ForgetDiscardsEarlierCalls) {
   remainder_is_worthless({90e-6, 0.0});
   forecast_.forget();
   EXPECT_FALSE(remainder_is_worthless({90e-6}));
@@ -134,7 +134,7 @@ Step step_by(double x, double y, double turn = 0.0) {
 }
 
 // Contacts that bend may lead a part in a circle.
-TEST_F(StepForecasts, EndACallWhoseStepsLeadBackToWhereTheyWere) {
+TEST_F(StepForecasts, ThreeStepsBackToTheirStartEndTheCall) {
   const Step first = step_by(80e-6, 0.0);
   const std::vector<Step> circle{first, step_by(4e-6, 0.0, 4e-4), step_by(-1e-6, 2e-6, -1e-4),
                                  step_by(-2.98e-6, -2.02e-6, -2.98e-4)};
@@ -148,7 +148,7 @@ TEST_F(StepForecasts, EndACallWhoseStepsLeadBackToWhereTheyWere) {
   EXPECT_FALSE(remainder_is_worthless_after(shortened));
 }
 
-TEST_F(StepForecasts, LetAPartCloseInOnItsOptimum) {
+TEST_F(StepForecasts, ConvergingStepsDoNotEndTheCall) {
   EXPECT_FALSE(remainder_is_worthless_after({step_by(100e-6, 0.0), step_by(-80e-6, 0.0), step_by(64e-6, 0.0)}))
       << "to and fro";
   constexpr double kThird = 2.0943951;  // rad
@@ -160,12 +160,12 @@ TEST_F(StepForecasts, LetAPartCloseInOnItsOptimum) {
   EXPECT_FALSE(remainder_is_worthless_after(spiral));
 }
 
-TEST_F(StepForecasts, LearnNothingFromACircle) {
+TEST_F(StepForecasts, CyclicStepsAreIgnored) {
   remainder_is_worthless_after({step_by(5e-6, 0.0), step_by(-2e-6, 0.0), step_by(-3e-6, 0.0)});
   EXPECT_FALSE(remainder_is_worthless({5e-6}));
 }
 
-TEST_F(StepForecasts, EndACallOfSeveralPartsWhenAllGoInCircles) {
+TEST_F(StepForecasts, CallOfSeveralPartsEndsOnlyIfAllCycleOrStand) {
   parts_.push_back(parts_.front());
   std::vector<Step> steps{step_by(4e-6, 0.0), step_by(-1e-6, 2e-6), step_by(-3e-6, -2e-6)};
   EXPECT_TRUE(remainder_is_worthless_after(steps)) << "the other one stands still";

@@ -80,7 +80,7 @@ ContactFeatures features_of(const Contact& contact) {
   return {contact.kind, contact.part, contact.rider, contact.part_feature, contact.obstacle, contact.obstacle_feature};
 }
 
-TEST(TurnedRows, AreThoseOfTheContactsThatAreFoundThere) {
+TEST(TurnedRows, MatchTheRowsFoundAtTheEndPoses) {
   constexpr std::uint64_t kSeed = 95;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -137,7 +137,7 @@ TEST(TurnedRows, AreThoseOfTheContactsThatAreFoundThere) {
 
 // The edge on which the box stands is pressed on the plate, and the lever of this force turns with the box. To first
 // order a step leaves some micrometres of the rotation for a second cycle.
-TEST(TurnedRows, SpareAPartThatTiltsItsSecondCycle) {
+TEST(TurnedRows, AvoidASecondCycleForATiltingPart) {
   constexpr double kHalfEdge = 0.05;    // metres, of the box
   constexpr double kPressed = 5e-3;     // metres, of the ghost below
   constexpr double kTiltOfTick = 4e-3;  // radians

@@ -73,7 +73,7 @@ TEST(WorkBudget, WithoutOneNoCallEndsEarly) {
 }
 
 // The first search would find more pairs than its memory may hold; a call without a budget looks less far at once.
-TEST(WorkBudget, WithoutOneACallEndsWhereVeryManyPairsAreNear) {
+TEST(WorkBudget, WithoutOneTooManyPairsShortenTheStep) {
   if (test_support::kSanitized) GTEST_SKIP() << "millions of pairs take minutes; near_pairs_test has the limit";
   const Isometry3d X_WG = pose({1.5e-3, 0.0, 0.0});
   std::vector<Isometry3d> X_WV;
@@ -100,7 +100,7 @@ TEST(WorkBudget, ThePartGetsToTheSamePlaceInMoreCalls) {
   }
 }
 
-TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
+TEST(WorkBudget, CallExceedsItByAtMostOnePieceOfWork) {
   constexpr std::int64_t kBudget = 3'000;
   // A projection on the contacts of a ball on a plane, or the proof of two leaves: the greatest piece here.
   constexpr std::int64_t kPiece = 8'000;
@@ -114,7 +114,7 @@ TEST(WorkBudget, ACallDoesNoMoreThanItsWorkAndOnePiece) {
 }
 
 /// A thread works on the search of the candidates while a call waits for it.
-TEST(WorkBudget, ASearchDoesNoMoreInACallEither) {
+TEST(WorkBudget, SearchExceedsItByAtMostOnePieceOfWorkPerCall) {
   constexpr std::int64_t kWork = 5'000;
   constexpr std::int64_t kPiece = 16 * 500 + 100;  // the triangle pairs of two leaves
   ContactScene scene({fine_block()}, {fine_ball()}, std::vector<double>{1e-5});
@@ -251,7 +251,7 @@ TEST(WorkBudget, NoBitDependsOnTheSearchThread) {
   EXPECT_GT(early, 100);
 }
 
-TEST(WorkBudget, MustAllowSomething) {
+TEST(WorkBudget, TooSmallIsRefused) {
   EXPECT_THROW(ball_on_block(1), std::invalid_argument);
 }
 
@@ -297,7 +297,7 @@ int calls_beside_riders(bool between_cycles_only) {
   return call;
 }
 
-TEST(WorkBudget, RidersThatAreMovedBetweenCyclesHoldNoPartUp) {
+TEST(WorkBudget, MovingRidersDoNotStallAPart) {
   EXPECT_LT(calls_beside_riders(true), 2'000);
   EXPECT_GT(calls_beside_riders(false), 1.5 * calls_beside_riders(true)) << "each cycle begins anew";
 }

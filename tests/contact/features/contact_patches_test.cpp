@@ -30,7 +30,7 @@ TrackedContact contact(std::int64_t id, const Vector3d& p_W, const Vector3d& n_W
   return {id, 0, {ContactKind::kVertexFace, 0, 0, 0, n_W, p_W, 5e-6, force, 0, 0}};
 }
 
-TEST(ContactPatches, ContactsInOnePlaneAreOneHoweverFarApart) {
+TEST(ContactPatches, CoplanarContactsFormOnePatch) {
   std::vector<TrackedContact> contacts{contact(4, {0, 0, 0}, Vector3d::UnitZ(), 1.0),
                                        contact(7, {0.1, 0, 0}, Vector3d::UnitZ(), 3.0)};
   contacts[1].contact.friction_W = Vector3d(0.5, 0, 0);
@@ -62,7 +62,7 @@ TEST(ContactPatches, AStepASlopeAndAnotherObstacleArePatchesOfTheirOwn) {
   EXPECT_EQ(patches.merge(contacts).size(), 4u);
 }
 
-TEST(ContactPatches, TheOrderOfTheContactsMakesNoOthers) {
+TEST(ContactPatches, IndependentOfContactOrder) {
   RecordProperty("seed", static_cast<int>(kPatchesSeed));
   SCOPED_TRACE("seed " + std::to_string(kPatchesSeed));
   std::mt19937 random(kPatchesSeed);
@@ -126,7 +126,7 @@ TEST(ContactPatches, AFinelyCutBoxOnAFinelyCutPlaneIsOnePatch) {
   EXPECT_NEAR(patches[0].extent, Vector3d(0.05, 0.03, 0).norm(), 1e-3);
 }
 
-TEST(ContactPatches, ABoxInAGrooveIsTwo) {
+TEST(ContactPatches, BoxInAGrooveHasTwoPatches) {
   const Vector3d left = Vector3d(1.0, 0.0, 1.0).normalized();
   const Vector3d right = Vector3d(-1.0, 0.0, 1.0).normalized();
   const Eigen::Quaterniond q_45(Eigen::AngleAxisd(std::numbers::pi / 4, Vector3d::UnitY()));
@@ -138,7 +138,7 @@ TEST(ContactPatches, ABoxInAGrooveIsTwo) {
   EXPECT_TRUE(patches[0].n_W.isApprox(left, 1e-3) || patches[1].n_W.isApprox(left, 1e-3));
 }
 
-TEST(ContactPatches, ATiltedPegInItsHoleIsAFew) {
+TEST(ContactPatches, TiltedPegInAHoleHasTwoToEightPatches) {
   // A peg of 8 mm in a tube with 50 µm of play, tilted as far as that lets it.
   const std::vector<Eigen::Vector2d> profile{{0.0, -0.01}, {0.00795, -0.01}, {0.00795, 0.01}, {0.0, 0.01}};
   const geometry::TriangleMesh peg = geometry::make_revolution(profile, false, 48);

@@ -80,7 +80,7 @@ TEST(ContactSearch, ABoxOnALargePlaneTouchesWithItsFourCornersOnly) {
   }
 }
 
-TEST(ContactSearch, ACornerMayMoveToTheBorderOfThePlateAcrossItsFlatEdges) {
+TEST(ContactSearch, RangeOfACornerContactReachesThePlateBorderAcrossFlatEdges) {
   // The plate reaches to x = 0.2, the box to x = 0.195; the diagonal of the plate is no border.
   const auto found = contacts(geometry::make_plate({0.4, 0.4}, 2), geometry::make_box({0.1, 0.1, 0.1}, 12),
                               pose({0.145, 0.0, 0.0501}));
@@ -128,7 +128,7 @@ TEST(ContactSearch, CrossedEdgesMeetAlongTheirCommonNormal) {
 }
 
 // A pair whose contacts beyond the reach are certainly farther than another reach has none between the two.
-TEST(ContactSearch, TellsHowFarContactsBeyondItsReachAreAtLeast) {
+TEST(ContactSearch, ReturnsALowerBoundOfGapsBeyondItsReach) {
   constexpr std::uint64_t kSeed = 9;
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
@@ -165,7 +165,7 @@ TEST(ContactSearch, TellsHowFarContactsBeyondItsReachAreAtLeast) {
 }
 
 // The vector code looks at many pairs only.
-TEST(ContactSearch, OfManyPairsFindsTheContactsOfEach) {
+TEST(ContactSearch, BatchFindsTheContactsOfSinglePairs) {
   constexpr std::uint64_t kSeed = 8;
   RecordProperty("seed", static_cast<int>(kSeed));
   test_support::RandomNumbers random(kSeed);
@@ -218,7 +218,7 @@ double distance_from(const std::vector<Vector3d>& corners, const Vector3d& x) {
   return std::abs(along.cross(corners[2] - corners[0]).normalized().dot(x - corners[0]));
 }
 
-TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
+TEST(ContactSearch, ReportedFeaturesContainTheContactPoints) {
   // A ball over a face, an edge and a corner of a box, turned in many ways: all kinds of features meet.
   const geometry::TriangleMesh box = geometry::make_box({0.1, 0.1, 0.1}, 100);
   const geometry::TriangleMesh ball = geometry::flip_randomly(geometry::make_sphere(0.05, 300), 5);
@@ -253,7 +253,7 @@ TEST(ContactSearch, TheFeaturesNamedAreThoseThatTouchWhateverTheKind) {
     EXPECT_GT(seen[kind], 0) << name_of(kind);
 }
 
-TEST(ContactSearch, ACornerBesideTheRimOfASheetMeetsTheRim) {
+TEST(ContactSearch, BoxBesideASheetRimHasHorizontalNormals) {
   const auto found =
       contacts(geometry::make_plate({0.2, 0.2}, 2), geometry::make_box({0.1, 0.1, 0.1}, 12), pose({0.1502, 0.0, 0.0}));
   // The box's side faces the rim from 0.2 mm away; nothing but horizontal normals can come of that.
@@ -282,7 +282,7 @@ std::vector<double> tiny_shifts() {
   return shifts;
 }
 
-TEST(ContactSearch, RimsThatCrossWhereBothAreCutAlwaysMeet) {
+TEST(ContactSearch, CrossingRimsMeetWhereBothHaveVertices) {
   // Cells of 10 mm and of 20 mm: two edges of the box cross the rim of the table over vertices of both.
   TwoBodies box_on_table(geometry::make_plate({1.0, 1.0}, 5'000), geometry::make_box({0.1, 0.1, 0.1}, 1'200));
   const std::vector<double> turns{0.0, 1e-9, 1e-3};
@@ -311,7 +311,7 @@ Isometry3d random_frame(test_support::RandomNumbers& random) {
   return pose(random.point(1.0), Eigen::Quaterniond(random.rotation()));
 }
 
-TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
+TEST(ContactSearch, NoContactAtARimVertexIsLostToRounding) {
   constexpr std::uint64_t kSeed = 83;
   RecordProperty("seed", std::to_string(kSeed));
   test_support::RandomNumbers random(kSeed);
@@ -340,7 +340,7 @@ TEST(ContactSearch, RoundingLetsNothingThroughWhereARimIsCut) {
   }
 }
 
-TEST(ContactSearch, ACornerMeetsARimWhereverThatIsCut) {
+TEST(ContactSearch, CornerMeetsARimBesideARimVertex) {
   // The corner of a box points at the rim of a sheet, at a vertex inside it, and the other way round.
   const geometry::TriangleMesh sheet = geometry::make_plate({0.2, 0.2}, 200);
   const geometry::TriangleMesh box =

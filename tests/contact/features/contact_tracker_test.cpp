@@ -51,7 +51,7 @@ std::vector<std::int64_t> ids(std::span<const TrackedContact> contacts) {
 
 using Ids = std::vector<std::int64_t>;
 
-TEST(ContactTracker, WhatTouchesIsNearerThanTwoMarginsOrPushes) {
+TEST(ContactTracker, ReportsContactsWithinTwoMarginsOrWithForce) {
   ContactTracker tracker(kTrackedMargin);
   Contact pushing = vertex_over_face(3, 0, Vector3d(0.3, 0, 0), 10.0 * kTrackedMargin);
   pushing.force = 0.1;
@@ -126,7 +126,7 @@ TEST(ContactTracker, AContactThatPassesToTheNextTriangleOfAFaceStaysTheSame) {
   EXPECT_EQ(ids(tracker.update(result_of({on_wall}, 0.003))), Ids{3});
 }
 
-TEST(ContactTracker, OfTwoThatEndEachGoesOnWhereItsOwnVertexIs) {
+TEST(ContactTracker, NearbyContactsAreMatchedByTheirVertices) {
   ContactTracker tracker(kTrackedMargin);
   tracker.update(
       result_of({vertex_over_face(1, 7, Vector3d(0.1, 0, 0)), vertex_over_face(2, 7, Vector3d(0.1008, 0, 0))}));
@@ -136,7 +136,7 @@ TEST(ContactTracker, OfTwoThatEndEachGoesOnWhereItsOwnVertexIs) {
   EXPECT_EQ(ids(contacts), (Ids{1, 2}));
 }
 
-TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
+TEST(ContactTracker, DuplicateContactsAtOnePointAreMerged) {
   std::vector<Contact> contacts{vertex_over_face(1, 8, Vector3d(0.1, 0, 0)),
                                 vertex_over_face(1, 7, Vector3d(0.1, 0, 0)),
                                 vertex_over_face(2, 7, Vector3d(0.2, 0, 0))};
@@ -168,7 +168,7 @@ TEST(ContactTracker, WhatIsToldTwiceAtOnePlaceIsOneContact) {
   EXPECT_EQ(tracker.update(result_of(contacts)).size(), 5u);
 }
 
-TEST(ContactTracker, APartThatDepenetratesTouchesTheObstacle) {
+TEST(ContactTracker, OverlapContactsAreTracked) {
   Contact overlap = vertex_over_face(-1, -1, Vector3d(0.1, 0, 0), -3e-3);
   overlap.kind = ContactKind::kOverlap;
   ContactTracker tracker(kTrackedMargin);
@@ -228,7 +228,7 @@ TEST_F(BoxOnPlate, TheFourCornersOfABoxKeepTheirNumbersAcrossThePlatesTriangles)
   EXPECT_EQ(tracker.contacts().front().contact.kind, ContactKind::kVertexFace);
 }
 
-TEST_F(BoxOnPlate, TheForcesOfTheListAreTheSpringsForceAndTorque) {
+TEST_F(BoxOnPlate, ContactForcesBalanceTheSpringForceAndTorque) {
   for (int i = 0; i < 520; ++i)
     move(-0.1 + 2e-4 * std::min(i, 500), 0.017);
   ASSERT_EQ(sliding.result().state, SlidingState::kResting);

@@ -66,7 +66,7 @@ double distance_to_rims(const CornerOverTriangle& corner, const Vector3d& point)
 
 class CornerKernel : public test_support::EveryInstructionSet {};
 
-TEST_P(CornerKernel, GivesTheBitsOfOneCornerAtATime) {
+TEST_P(CornerKernel, BitIdenticalToOneCornerAtATime) {
   constexpr std::uint64_t kSeed = 41;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);

@@ -136,7 +136,7 @@ class SixteenPairs {
 
 class FeatureKernel : public test_support::EveryInstructionSet {};
 
-TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
+TEST_P(FeatureKernel, RejectsMostImpossibleFeaturePairsAndNoPossibleOnes) {
   constexpr std::uint64_t kSeed = 31;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -191,7 +191,7 @@ TEST_P(FeatureKernel, LeavesOutNearlyAllThatIsNoContactAndNothingElse) {
 }
 
 // Twice the same corner, twice the same triangle, a triangle far smaller than the rounding of its place.
-TEST_P(FeatureKernel, OfTrianglesThatAreNoTrianglesNothingIsCertain) {
+TEST_P(FeatureKernel, RejectsNothingForDegenerateTriangles) {
   TrianglePairs pairs{};
   PossibleContacts possible;
   possible.features.fill(kAllFeaturePairs);

@@ -72,7 +72,7 @@ TEST_F(BoxOnAFinelyCutTable, TouchesWithItsFourCornersOnly) {
   });
 }
 
-TEST_F(BoxOnAFinelyCutTable, BeyondTheRimItSlidesAlongItVertexOverVertex) {
+TEST_F(BoxOnAFinelyCutTable, OverhangingBoxSlidesAlongTheRimWithoutJumps) {
   // A part of the box that is a whole number of cells is beyond the rim: every other cell along it vertices of both
   // meet.
   const double x = 0.1 - kHalf_m + 4.0 * kCell_m;
@@ -94,7 +94,7 @@ TEST_F(BoxOnAFinelyCutTable, BeyondTheRimItSlidesAlongItVertexOverVertex) {
   EXPECT_LT(most, 1.5) << "it does not jump";
 }
 
-TEST_F(BoxOnAFinelyCutTable, AcrossTheRimItSlidesOutAsFarAsItIsHeld) {
+TEST_F(BoxOnAFinelyCutTable, StaysFlatWhileSlidingOutOverTheRim) {
   lead(turned_at({0.05, 0.0, kHalf_m - kPressed_m}), 100);
   lead(turned_at({0.1 - 1e-4, 0.0, kHalf_m - kPressed_m}), 1000,
        [&](const SlidingResult& result) { expect_flat(result); });

@@ -83,7 +83,7 @@ double zero_of(const std::function<double(double)>& f, double low, double high) 
   return 0.5 * (low + high);
 }
 
-TEST(ClosedForm, PressedTiltedOnAPlaneItLiesFlatWhileTheForceIsOverItsFoot) {
+TEST(ClosedForm, TiltedBoxLiesFlatWhileTheForceActsWithinItsBase) {
   Sliding sliding = held_box({floor_below()}, pose({0.0, 0.0, 0.03}));
   const double depth = 3e-3;
   const double tilt = 0.02;
@@ -93,7 +93,7 @@ TEST(ClosedForm, PressedTiltedOnAPlaneItLiesFlatWhileTheForceIsOverItsFoot) {
   expect_at_rest(sliding, pose({0.02, 0.01, kHalfHeight + sliding.margin()}));
 }
 
-TEST(ClosedForm, TiltedFurtherItStandsOnOneEdge) {
+TEST(ClosedForm, BoxTiltedFurtherStandsOnOneEdge) {
   Sliding sliding = held_box({floor_below()}, pose({0.0, 0.0, 0.03}));
   const double tilt = 0.15;
   const Vector3d p_WG(0.01, 0.02, kHalfHeight);
@@ -112,7 +112,7 @@ TEST(ClosedForm, TiltedFurtherItStandsOnOneEdge) {
   expect_at_rest(sliding, pose({p_WG.x(), p_WG.y(), height(angle)}, turn(angle, Vector3d::UnitY())));
 }
 
-TEST(ClosedForm, ACornerOverTheMiddleOfTheForceDoesNotTurnAndSlidesWithoutLag) {
+TEST(ClosedForm, BoxOnItsCornerSlidesWithoutRotationOrLag) {
   // The space diagonal upright: the box stands on a corner right below its middle.
   const Eigen::Quaterniond q = turn_from_to(kBoxSize, Vector3d::UnitZ());
   const double half_diagonal = 0.5 * kBoxSize.norm();
@@ -222,7 +222,7 @@ double inner_radius(const geometry::TriangleMesh& mesh) {
   return least;
 }
 
-TEST(ClosedForm, ASphereOnASphereIsAsFarAsItsFacetsLet) {
+TEST(ClosedForm, SphereOnSphereMatchesWithinTheFacetSagittas) {
   const double radius_O = 0.04;
   const double radius_V = 0.02;
   constexpr int kTriangles = test_support::kSanitized ? 2000 : 4000;

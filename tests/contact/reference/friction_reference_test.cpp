@@ -79,7 +79,7 @@ class BoxOnSlope {
   std::unique_ptr<OdeHeldPart> ode_;
 };
 
-TEST(FrictionReference, OnAPlaneTheBoxSticksAsLongInOdeAsHere) {
+TEST(FrictionReference, StickLimitOnAPlaneMatchesOde) {
   for (const double depth : {1e-3, 3e-3}) {
     BoxOnSlope box(0.0);
     box.lead_to({0.0, 0.0, box.height() - depth}, 100);
@@ -93,7 +93,7 @@ TEST(FrictionReference, OnAPlaneTheBoxSticksAsLongInOdeAsHere) {
   }
 }
 
-TEST(FrictionReference, OnAPlaneTheBoxIsDrawnAlongByTheSameForceAsInOde) {
+TEST(FrictionReference, SlidingForceOnAPlaneMatchesOde) {
   BoxOnSlope box(0.0);
   box.lead_to({0.0, 0.0, box.height() - 2e-3}, 100);
   for (const double x : {0.05, 0.0, -0.03}) {
@@ -104,7 +104,7 @@ TEST(FrictionReference, OnAPlaneTheBoxIsDrawnAlongByTheSameForceAsInOde) {
   }
 }
 
-TEST(FrictionReference, LoweredOntoASlopeTheBoxStaysWhereTheSlopeIsLessThanTheCoefficient) {
+TEST(FrictionReference, BoxSticksOnASlopeBelowTheFrictionAngle) {
   const double slope = 0.95 * std::atan(kSlopeFriction);
   BoxOnSlope box(slope);
   const Vector3d touching = box.from_plane({0.0, 0.0, box.height()});
@@ -114,7 +114,7 @@ TEST(FrictionReference, LoweredOntoASlopeTheBoxStaysWhereTheSlopeIsLessThanTheCo
   EXPECT_NEAR(box.ode().x(), 0.0, kSlopePosition_m);
 }
 
-TEST(FrictionReference, LoweredOntoASteeperSlopeTheBoxSlidesDownUntilFrictionHoldsTheRest) {
+TEST(FrictionReference, BoxSlidesDownASteeperSlopeUntilFrictionBalances) {
   const double slope = 0.5;
   ASSERT_GT(std::tan(slope), kSlopeFriction);
   BoxOnSlope box(slope);

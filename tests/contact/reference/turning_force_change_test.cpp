@@ -92,7 +92,7 @@ std::vector<Obstacle> half_spaces(int count) {
   return obstacles;
 }
 
-TEST(ForceChangeOfATurningPart, IsNoGreaterThanTheGhostsWhereTheFreeSpaceIsConvex) {
+TEST(ForceChangeOfATurningPart, BoundedByTheGhostMotionInConvexFreeSpace) {
   for (int seed = 1; seed <= std::max(3, test_support::affordable(12)); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     RandomNumbers random(static_cast<std::uint64_t>(seed));
@@ -115,7 +115,7 @@ TEST(ForceChangeOfATurningPart, IsNoGreaterThanTheGhostsWhereTheFreeSpaceIsConve
   }
 }
 
-TEST(ForceChangeOfATurningPart, UnderForceFeedbackIsLimitedInAnyScene) {
+TEST(ForceChangeOfATurningPart, BoundedByTheSlewUnderForceFeedback) {
   // A hull among spheres, which its ghost goes right through.
   double greatest_excess = 0.0;
   for (int seed = 1; seed <= std::max(1, test_support::affordable(6)); ++seed) {

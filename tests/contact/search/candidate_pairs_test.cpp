@@ -130,7 +130,7 @@ std::vector<PlaceOfPair> places_within(double reach, const std::vector<GapsBySlo
 }
 
 // Pairs whose contacts are known to have greater gaps are not looked at again before the parts have come nearer.
-TEST(CandidatePairs, HaveTheSameContactsWhereGapsAreNoted) {
+TEST(CandidatePairs, NotedGapsDoNotChangeTheContacts) {
   constexpr std::uint64_t kSeed = 63;
   constexpr double kMargin = 1e-6;
   RecordProperty("seed", static_cast<int>(kSeed));
@@ -193,7 +193,7 @@ std::set<TrianglesOfBodies> all_pairs_of(const CandidatePairs& candidates, const
 }
 
 // Steps lead away from the poses of a search, back to them, and past them, farther than it covers all around.
-TEST(CandidatePairs, AreAllThatComesNearOnACoveredPath) {
+TEST(CandidatePairs, ContainEveryPairThatComesNearOnACoveredPath) {
   constexpr std::uint64_t kSeed = 64;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);
@@ -249,7 +249,7 @@ geometry::TriangleMesh specks(const std::vector<Vector3d>& points) {
 
 // The part turns by 1 rad while its centre comes back to that of the search. Halfway, one of its specks is farther from
 // its place at the search than at either end, by 0.007 of the radius, and meets a speck that the search left out.
-TEST(CandidatePairs, MayComeNearerOnAnArcThanOnItsChord) {
+TEST(CandidatePairs, PathCoverageCountsTheArcOfARotation) {
   constexpr double kRadius = 0.02;  // metres
   constexpr double kTurn = 1.0;     // rad
   const double chord = 2.0 * kRadius * std::sin(0.5 * kTurn);
@@ -309,7 +309,7 @@ std::vector<double> contents(const CandidatePairs& candidates, double reach) {
   return numbers;
 }
 
-TEST(CandidatePairs, AreTheSameWithAThreadOfTheirOwn) {
+TEST(CandidatePairs, SearchThreadDoesNotChangeThem) {
   constexpr std::uint64_t kSeed = 62;
   RecordProperty("seed", static_cast<int>(kSeed));
   RandomNumbers random(kSeed);

@@ -85,7 +85,7 @@ struct PairsOfInterest {
 const Isometry3d kAside(Eigen::Translation3d(10e-6, -5e-6, 3e-6));
 const Isometry3d kTurned(Eigen::AngleAxisd(20e-3, Vector3d(1.0, 2.0, 3.0).normalized()));
 
-TEST(LastingPlanes, KeepMoreTrianglesApartInTheStep) {
+TEST(LastingPlanes, SeparateMorePairsInTheExpectedStep) {
   const ExpectedStep step{{kAside}, {kTurned * kAside}};
   const PairsOfInterest pairs(ball_in_socket(), request_at(kAside), step, step);
   EXPECT_GT(pairs.of_planes_of_search, 3000);
@@ -94,7 +94,7 @@ TEST(LastingPlanes, KeepMoreTrianglesApartInTheStep) {
 }
 
 // The socket moves.
-TEST(LastingPlanes, AreThoseOfTheMotionOfBothBodies) {
+TEST(LastingPlanes, AccountForTheMotionOfBothBodies) {
   const ContactScene scene({},
                            {test_support::part_of(geometry::make_sphere(kSocket, 3000)),
                             test_support::part_of(geometry::make_sphere(kBall, 3000))},

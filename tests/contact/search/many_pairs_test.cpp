@@ -47,7 +47,7 @@ class VeryManyPairs : public ManyPairs {
   VeryManyPairs() : ManyPairs(0.02) {}
 };
 
-TEST_F(ManyPairs, BeyondTheLimitEndASearchWithoutAnAnswer) {
+TEST_F(ManyPairs, SearchBeyondTheLimitKeepsTheLastCandidates) {
   constexpr double kRadius = 0.11e-3;
   constexpr double kLarger = 0.3e-3;
   constexpr double kTooLarge = 2.5e-3;
@@ -74,7 +74,7 @@ TEST_F(ManyPairs, BeyondTheLimitEndASearchWithoutAnAnswer) {
   }
 }
 
-TEST_F(ManyPairs, AreMoreThanHalfAsManyAsAllowed) {
+TEST_F(ManyPairs, AreManyAboveHalfTheLimit) {
   constexpr double kRadius = 0.3e-3;
   CandidatePairs candidates(scene_, greatest_radius_m_);
   candidates.look(kRadius, 0.0, {});
@@ -106,7 +106,7 @@ TEST_F(VeryManyPairs, AreCertifiedByTrianglesAloneInTheNextSearch) {
 }
 
 // The planes of a search are made to last for the step in which its answer is first needed.
-TEST_F(VeryManyPairs, AreFoundForAStepThatIsExpected) {
+TEST_F(VeryManyPairs, SearchRequestPredictsTheFirstStep) {
   constexpr double kReach = 0.1e-3;
   constexpr double kAhead = 0.2e-3;
   CandidatePairs candidates(scene_, greatest_radius_m_);

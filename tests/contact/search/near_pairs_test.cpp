@@ -81,7 +81,7 @@ class NearPairs : public ::testing::Test {
   RandomNumbers random_;
 };
 
-TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
+TEST_F(NearPairs, PairsToCertifyCoverEachNearTrianglePairOnce) {
   std::map<SoughtPairs, std::size_t> boxes;
   std::map<SoughtPairs, std::size_t> triangles;
   const int trials = std::max(60, test_support::affordable(300));  // few hold boxes of every kind
@@ -114,7 +114,7 @@ TEST_F(NearPairs, HoldEveryPairOfTrianglesWithinTheRadiusOnceToCertify) {
 
 // Where parts fit closely, planes of triangles last longer than those of boxes. But the triangles of plates that lie on
 // each other yield no contacts, and are too many.
-TEST_F(NearPairs, AreInNoBoxesWhereBothYieldContactsIfTheseAreNotSought) {
+TEST_F(NearPairs, CloseFitSearchOmitsBoxPairsOfBallsButNotOfPlates) {
   const auto scene = [](const geometry::TriangleMesh& obstacle, const geometry::TriangleMesh& part, double gap) {
     ContactScene made({test_support::obstacle_of(obstacle)}, {test_support::part_of(part)}, std::vector<double>{2e-6});
     made.place(0, test_support::pose({0.0, 0.0, gap}, Eigen::Quaterniond::Identity()));
@@ -128,7 +128,7 @@ TEST_F(NearPairs, AreInNoBoxesWhereBothYieldContactsIfTheseAreNotSought) {
   EXPECT_FALSE(Found(plates, 1e-3, SoughtPairs::kWithPlanesInCloseFit).boxes.empty());
 }
 
-TEST_F(NearPairs, AreAllOfThemOrTooMany) {
+TEST_F(NearPairs, CompleteAtThePairLimitAndThrowsAboveIt) {
   ContactScene scene({test_support::obstacle_of(geometry::make_sphere(0.03, 500))},
                      {test_support::part_of(geometry::make_sphere(0.02, 500))}, std::vector<double>{2e-6});
   scene.place(0, test_support::pose({0.0, 0.0, 0.0501}));
@@ -207,7 +207,7 @@ TEST_F(NearPairs, TellLowerBoundsOfDistances) {
 }
 
 // Hands see as far as these distances tell them.
-TEST_F(NearPairs, AreAllMeasuredWhereDistancesAreSought) {
+TEST_F(NearPairs, DistancesAreExactWhenSought) {
   int measured = 0;
   for (int trial = 0; trial < std::max(20, test_support::affordable(80)); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
@@ -222,7 +222,7 @@ TEST_F(NearPairs, AreAllMeasuredWhereDistancesAreSought) {
 }
 
 // The planes of triangles are fixed to the body of the triangle.
-TEST_F(NearPairs, HaveNormalsOfThePartWhereTheseTurnWithIt) {
+TEST_F(NearPairs, TurningDirectionsAreNormalsOfThePartTriangle) {
   int turning = 0;
   for (int trial = 0; trial < test_support::affordable(80); ++trial) {
     SCOPED_TRACE("seed " + std::to_string(kSeed) + ", trial " + std::to_string(trial));
@@ -253,7 +253,7 @@ std::size_t pairs_to_certify_of_flush_plates(std::int64_t triangles, double gap)
   return Found(scene, 0.5e-3).all_to_certify().size();
 }
 
-TEST_F(NearPairs, AreAsFewToCertifyForFinelyCutFlushPlatesAsForCoarseOnes) {
+TEST_F(NearPairs, PairsToCertifyForFlushPlatesIndependentOfTessellation) {
   EXPECT_LE(pairs_to_certify_of_flush_plates(20, 1.0), 16U) << "the children of the roots";
   EXPECT_LE(pairs_to_certify_of_flush_plates(5000, 1.0), 16U);
   EXPECT_GT(pairs_to_certify_of_flush_plates(5000, 0.5), 300U) << "nearer than boxes are accepted";

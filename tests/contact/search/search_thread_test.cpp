@@ -184,7 +184,7 @@ TEST(SearchThread, ChangesNoBitOfSeveralParts) {
   EXPECT_GT(twins.pushed(), 10);
 }
 
-TEST(SearchThread, EndsWithASearchUnderWay) {
+TEST(SearchThread, DestructionDuringASearchIsSafe) {
   const Isometry3d X_WV = pose({0.0, 0.0, 0.0105});
   for (int ticks = 1; ticks <= 20; ++ticks) {
     Sliding sliding({finely_cut_block()}, finely_cut_cube(), X_WV, {.rules = {.has_search_thread = true}});
@@ -207,7 +207,7 @@ void wait_for_more_work(const SearchThread& thread, std::int64_t work) {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }
 
-TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
+TEST(SearchThread, WorkAheadIsLimited) {
   constexpr std::int64_t kAhead = 20'000;
   constexpr std::int64_t kPiece = 16 * 500 + 100;  // the triangle pairs of two leaves
   const ContactScene scene = crowded_scene();
@@ -231,7 +231,7 @@ TEST(SearchThread, RunsAheadByNoMoreWorkThanItMay) {
   EXPECT_FALSE(found.pairs.empty());
 }
 
-TEST(SearchThread, EndsASearchInVainWhereItIs) {
+TEST(SearchThread, CancelStopsASearchEarly) {
   constexpr std::int64_t kAhead = 20'000;
   const ContactScene scene = crowded_scene();
   SearchThread thread(kAhead);
@@ -254,7 +254,7 @@ TEST(SearchThread, EndsASearchInVainWhereItIs) {
   EXPECT_EQ(found.pairs.size(), pairs);
 }
 
-TEST(SearchThread, ForgetsTheFailureOfASearchInVain) {
+TEST(SearchThread, FailureOfACancelledSearchIsDiscarded) {
   const ContactScene scene = crowded_scene();
   SearchThread thread;
   CandidateSearch search(scene, 5e-3, &thread);
@@ -277,7 +277,7 @@ struct PriorityMeter final : collision::WorkMeter {
   int priority = -1;
 };
 
-TEST(SearchThread, HasThePriorityBehindThatOfTheThreadThatAsks) {
+TEST(SearchThread, RunsOnePriorityBelowTheRequestingThread) {
   const ContactScene scene = crowded_scene();
   SearchThread thread;
   PriorityMeter meter;

@@ -52,7 +52,7 @@ class CubeOverPlate : public ::testing::TestWithParam<bool> {
 };
 
 // The part is 0.6 of the look-ahead before the place of a search when its answer is taken, so that serves for 1.6.
-TEST_P(CubeOverPlate, TakesTheSearchThatWasAskedForAheadOfNeed) {
+TEST_P(CubeOverPlate, SearchRequestedAheadServesFor1Point6LookAheads) {
   move(0.0);
   EXPECT_TRUE(look());
   std::vector<int> taken;
@@ -80,7 +80,7 @@ TEST_P(CubeOverPlate, AJumpBeyondWhatWasAskedForIsSearchedAfresh) {
   EXPECT_EQ(candidates_.statistics().searches, 2) << "a search that was not used does not count";
 }
 
-TEST_P(CubeOverPlate, APartThatTurnsBackIsSearchedForAgain) {
+TEST_P(CubeOverPlate, ReversalIsCoveredByFewSearches) {
   move(0.0);
   look();
   for (const double way : {0.8, 0.3}) {
@@ -99,7 +99,7 @@ TEST_P(CubeOverPlate, APartThatTurnsBackIsSearchedForAgain) {
 
 // When 0.8 of the look-ahead has been used up, a search is made where the cube will be after the other 0.2 and 0.6
 // more: at half of it above the plate.
-TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
+TEST_P(CubeOverPlate, SearchAheadReportsDistancesAtItsPredictedPose) {
   move(5e-3 - 2.1 * kAhead);
   look();
   move(0.8 * kAhead);
@@ -114,7 +114,7 @@ TEST_P(CubeOverPlate, IsToldOfThePosesAtWhichItWasAskedFor) {
 
 // Steps much longer than the look-ahead: each search is made at the middle of the next one, with little more than half
 // of it as the radius.
-TEST_P(CubeOverPlate, ALongStepNeedsHalfItsLengthAroundItsMiddle) {
+TEST_P(CubeOverPlate, LongStepIsCoveredByHalfItsLengthAroundItsMidpoint) {
   constexpr double kStep = 0.5e-3;
   constexpr double kLittle = 0.05e-3;
   PathCertificate certificate(scene_);
@@ -133,7 +133,7 @@ TEST_P(CubeOverPlate, ALongStepNeedsHalfItsLengthAroundItsMiddle) {
   }
 }
 
-TEST_P(CubeOverPlate, AWayIsSearchedAtItsMiddle) {
+TEST_P(CubeOverPlate, PathIsSearchedAroundItsMidpoint) {
   constexpr double kLength = 2e-3;
   constexpr double kLeast = 0.1e-3;
   const std::vector<geometry::Displacement> way{{{0.0, 0.0, -kLength}, Vector3d::Zero()}};
@@ -168,7 +168,7 @@ TEST_P(CubeOverPlate, KeepsWhatWasTooNearToHaveADirection) {
   EXPECT_EQ(what_is_missing(candidates_, scene_, 0.2 * kSharpDistance_m), "");
 }
 
-TEST_P(CubeOverPlate, APoseThatIsNoneIsAnErrorOfTheCaller) {
+TEST_P(CubeOverPlate, InvalidPoseThrowsAndTheNextSearchSucceeds) {
   move(0.0);
   candidates_.look(kReach, kAhead, {});
   scene_.place(0, test_support::pose({0.0, 0.0, std::numeric_limits<double>::quiet_NaN()}));
@@ -209,7 +209,7 @@ class BallPastBall : public ::testing::TestWithParam<bool> {
   CandidatePairs candidates_{scene_, 5e-3, GetParam()};
 };
 
-TEST_P(BallPastBall, TakesSearchesThatServeAsLongAsThoseThatAreAskedForLate) {
+TEST_P(BallPastBall, SearchesRequestedEarlyServeAsLongAsLateOnes) {
   move(0.0);
   EXPECT_TRUE(look());
   std::vector<int> taken;

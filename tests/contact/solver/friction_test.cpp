@@ -64,7 +64,7 @@ class PressedBox : public ::testing::Test {
   std::unique_ptr<Sliding> sliding_;
 };
 
-TEST_F(PressedBox, SticksAsLongAsTheSpringPullsLessThanTheCoefficientAtRestAllows) {
+TEST_F(PressedBox, SticksUpToTheStaticFrictionLimit) {
   const double x = x_of_part();
   lead({0.98 * kAtRest * kPressed, 0.0, 0.01 - kPressed}, 100);
   settle();
@@ -75,7 +75,7 @@ TEST_F(PressedBox, SticksAsLongAsTheSpringPullsLessThanTheCoefficientAtRestAllow
   EXPECT_GT(x_of_part(), x + 0.1 * kAtRest * kPressed) << "the force of sliding is smaller: it comes some way";
 }
 
-TEST_F(PressedBox, SlidesWithTheForceOfSliding) {
+TEST_F(PressedBox, SlidesWithTheKineticFrictionForce) {
   lead({0.05, 0.03, 0.01 - kPressed}, 500);
   const double normal = force_of_spring().z();
   EXPECT_NEAR(-normal, kStiffness_N_per_m * kPressed, 0.01);
@@ -84,7 +84,7 @@ TEST_F(PressedBox, SlidesWithTheForceOfSliding) {
   EXPECT_NEAR(across.normalized().dot(Vector3d(0.05, 0.03, 0.0).normalized()), 1.0, 1e-3) << "against the motion";
 }
 
-TEST_F(PressedBox, IsHeldByWhatItsContactsTell) {
+TEST_F(PressedBox, ContactForcesBalanceTheSpring) {
   lead({0.05, 0.03, 0.01 - kPressed}, 500);
   Vector3d sum = Vector3d::Zero();
   for (const Contact& contact : sliding_->result().contacts) {
@@ -115,7 +115,7 @@ TEST_F(PressedBox, TurnsOnTheSpotAgainstATorqueOfFriction) {
   EXPECT_NEAR(turned(2.0 * most), 0.5, 0.02) << "half of the torque is friction's, half turns the part";
 }
 
-TEST_F(PressedBox, AHundredMillionthOfFrictionHardlyDiffersFromNone) {
+TEST_F(PressedBox, TinyFrictionMatchesTheFrictionlessPose) {
   const auto end_of_way = [&](const Friction& friction) {
     start(friction);
     lead({0.05, 0.03, 0.01 - kPressed}, 100);
@@ -168,7 +168,7 @@ class BoxOnCarriage : public ::testing::Test {
   std::unique_ptr<Sliding> sliding_;
 };
 
-TEST_F(BoxOnCarriage, IsCarriedAlongByWhatHoldsItAtRest) {
+TEST_F(BoxOnCarriage, StaticFrictionCarriesItAlong) {
   start({0.0, 0.0, 0.0}, pose({0.01, 0.0, 0.0}));
   lead({kPulled, 0.0, 0.01 - kPressed}, kWaits / 2);
   const Vector3d before = p_CarriageV();
@@ -176,7 +176,7 @@ TEST_F(BoxOnCarriage, IsCarriedAlongByWhatHoldsItAtRest) {
   EXPECT_LT((p_CarriageV() - before).norm(), 1e-5);
 }
 
-TEST_F(BoxOnCarriage, IsCarriedAlongAroundACorner) {
+TEST_F(BoxOnCarriage, StaticFrictionCarriesItThroughATurn) {
   // A turn by 180°/s, 0.1 m from its axis.
   start({0.1, 0.0, 0.0}, pose({0.0, 0.0, 0.0}, turn(0.1 * std::numbers::pi, Vector3d::UnitZ())));
   lead({0.1, kPulled, 0.01 - kPressed}, kWaits / 2);
@@ -188,7 +188,7 @@ TEST_F(BoxOnCarriage, IsCarriedAlongAroundACorner) {
   EXPECT_NEAR(moved.x(), 0.0, 1.2 * kMoves * 0.5 * turned * turned * 0.1) << "creeps outwards to second order";
 }
 
-TEST_F(BoxOnCarriage, SlipsWhereTheHandHoldsItBackAndFeelsTheForceOfSliding) {
+TEST_F(BoxOnCarriage, SlipsWithKineticFrictionIfHeldBack) {
   constexpr double kWay_m = 0.01;
   start({0.0, 0.0, 0.0}, pose({kWay_m, 0.0, 0.0}));
   lead({0.0, 0.0, 0.01 - kPressed}, kWaits / 2 + kMoves);
@@ -232,7 +232,7 @@ class OneContact : public ::testing::Test {
   std::vector<RowForce> forces_;
 };
 
-TEST_F(OneContact, ThatDemandsItsMarginBackIsSoonSolved) {
+TEST_F(OneContact, RestoringTheMarginConvergesQuickly) {
   solve(1e-6, 0.3);
   EXPECT_NEAR(displacements_[0].v.z(), 1e-6, 1e-12);
   ASSERT_EQ(forces_.size(), 1u);
@@ -241,7 +241,7 @@ TEST_F(OneContact, ThatDemandsItsMarginBackIsSoonSolved) {
   EXPECT_TRUE(solver_.is_settled());
 }
 
-TEST_F(OneContact, ThatIsNotSolvedWithTheWorkGivenIsToldSo) {
+TEST_F(OneContact, ReportsUnsettledIfTheWorkDoesNotSuffice) {
   solve(1e-6, 0.3, 2);
   EXPECT_LE(solver_.evaluations(), 2);
   EXPECT_FALSE(solver_.is_settled());
@@ -275,7 +275,7 @@ TEST(FrictionSolver, TwoPartsHoldEachOtherByTheSameForce) {
 }
 
 /// A part between two walls without any room, pulled along them and a tenth as far against one.
-TEST(FrictionSolver, APartThatFitsExactlyIsOnlyHeldByTheForceThatPressesIt) {
+TEST(FrictionSolver, ExactFitIsHeldOnlyByThePressingForce) {
   constexpr double kPull = 1e-3;
   constexpr double kCoefficient = 0.5;
   std::vector<CoupledRow> rows;

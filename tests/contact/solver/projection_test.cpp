@@ -23,7 +23,7 @@ TEST(Projection, LeavesAnUnhinderedDisplacementAsItIs) {
   EXPECT_TRUE(result.displacement().stacked().isApprox(wanted.stacked(), 1e-14));
 }
 
-TEST(Projection, SlidesAlongAFloorAndReportsTheForceThatTakes) {
+TEST(Projection, SlidesAlongAFloorAndReportsTheContactForce) {
   const geometry::Displacement wanted{{1e-3, 0.0, -3e-3}, Eigen::Vector3d::Zero()};
   const std::vector<ConstraintRow> rows{floor_at(1e-3)};
   const Projection<1> result = ProjectionSolver().project(wanted, kProjectedStiffness, rows);
@@ -45,7 +45,7 @@ TEST(Projection, TurnsAboutAnEccentricContactAsTheStiffnessesAllow) {
   EXPECT_NEAR(result.displacement().w.x(), force * a / kProjectedStiffness.rotational, 1e-12);
 }
 
-TEST(Projection, SaysWhenNothingIsAllowed) {
+TEST(Projection, ReportsInfeasibleConstraints) {
   const std::vector<ConstraintRow> rows{{Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 1e-3},
                                         {-Eigen::Vector3d::UnitX(), Eigen::Vector3d::Zero(), 1e-3}};
   EXPECT_EQ(ProjectionSolver().project({}, kProjectedStiffness, rows).status, ProjectionStatus::kInfeasible);

@@ -29,18 +29,18 @@ constexpr double kStep = 1e-6;
 constexpr double kNear = 4e-6;
 using enum PaperContactKind;
 
-TEST(PaperTable, OfClosedBodiesHasOneOneForEdges) {
+TEST(PaperTable, CountsOfOneAreEdgeOnEdge) {
   EXPECT_EQ(kind_of({1, 1}), kEdgeEdge);
 }
 
-TEST(PaperTable, OfClosedBodiesHasManyAboutAVertex) {
+TEST(PaperTable, CountAboveOneOnOneSideIsAVertexOnAFace) {
   EXPECT_EQ(kind_of({2, 0}), kVertexFace);
   EXPECT_EQ(kind_of({3, 1}), kVertexFace);
   EXPECT_EQ(kind_of({0, 2}), kFaceVertex);
   EXPECT_EQ(kind_of({1, 2}), kFaceVertex);
 }
 
-TEST(PaperTable, AsksForRimsWhereACountIsZero) {
+TEST(PaperTable, ZeroCountIsDecidedByItsRim) {
   EXPECT_EQ(kind_of({0, 1, true, false}), kEdgeEdge);
   EXPECT_EQ(kind_of({0, 2, true, false}), kEdgeEdge);
   EXPECT_EQ(kind_of({0, 1, false, false}), kFaceVertex);
@@ -48,14 +48,14 @@ TEST(PaperTable, AsksForRimsWhereACountIsZero) {
   EXPECT_EQ(kind_of({1, 0, false, false}), kVertexFace);
 }
 
-TEST(PaperTable, OfTwoRimsAsksBoth) {
+TEST(PaperTable, TwoZeroCountsAreDecidedByBothRims) {
   EXPECT_EQ(kind_of({0, 0, true, true}), kEdgeEdge);
   EXPECT_EQ(kind_of({0, 0, true, false}), kVertexFace);
   EXPECT_EQ(kind_of({0, 0, false, true}), kFaceVertex);
   EXPECT_EQ(kind_of({0, 0, false, false}), kUnclear);
 }
 
-TEST(PaperTable, OfManyOnBothSidesTakesTheLarger) {
+TEST(PaperTable, CountsAboveOneOnBothSidesAreDecidedByTheLarger) {
   EXPECT_EQ(kind_of({3, 2}), kVertexFace);
   EXPECT_EQ(kind_of({2, 3}), kFaceVertex);
   EXPECT_EQ(kind_of({2, 2}), kEdgeEdge);
@@ -183,7 +183,7 @@ TEST(PaperClassification, ASheetIsTouchedFromEitherSide) {
   expect_only(moved(pyramid(-0.02), -kAbove), plate, -kDown, kVertexFace, -Vector3d::UnitZ(), kStep / 2);
 }
 
-TEST(PaperClassification, TwoSheetsThatLieOnEachOtherAreUnclear) {
+TEST(PaperClassification, CoplanarSheetsHaveTheSheetNormal) {
   // Exactly one on the other, in the same plane: no edge meets the other in one point only, but every touching pair is
   // reported with the right normal.
   const geometry::TriangleMesh small{{{0, 0, kStep}, {0.01, 0, kStep}, {0, 0.01, kStep}}, {{0, 1, 2}}};

@@ -28,7 +28,7 @@ void expect_translation(const std::vector<Vector3d>& normals, const Vector3d& ex
   EXPECT_EQ(found.planes, planes);
 }
 
-TEST(NewTranslation, WithoutContactIsWhatIsWanted) {
+TEST(NewTranslation, UnchangedWithoutContact) {
   expect_translation({}, kWanted, 0);
 }
 
@@ -37,7 +37,7 @@ TEST(NewTranslation, OfOneContactIsInItsTangentPlane) {
   expect_translation({(kX + kZ).normalized()}, {1.0, -2.0, -1.0}, 1);
 }
 
-TEST(NewTranslation, OfAContactThatItLeavesIsWhatIsWanted) {
+TEST(NewTranslation, UnchangedByAContactThatItLeaves) {
   expect_translation({-kZ}, kWanted, 0);
 }
 
@@ -45,7 +45,7 @@ TEST(NewTranslation, OfTwoContactsIsAlongBothPlanes) {
   expect_translation({kY, kZ}, {-1.0, 0.0, 0.0}, 2);
 }
 
-TEST(NewTranslation, OfTwoContactsNeedsOnePlaneWhereThatAlsoClearsTheOther) {
+TEST(NewTranslation, OnePlaneOfTwoContactsSufficesIfItClearsTheOther) {
   // Along the plane z = 0 it moves away from the second one already.
   expect_translation({kZ, (kZ - kX).normalized()}, {-1.0, -2.0, 0.0}, 1);
 }
@@ -54,16 +54,16 @@ TEST(NewTranslation, BetweenTwoOpposedPlanesIsAlongThem) {
   expect_translation({kZ, -kZ}, {-1.0, -2.0, 0.0}, 1);
 }
 
-TEST(NewTranslation, OfThreeIndependentNormalsIsNothing) {
+TEST(NewTranslation, ZeroForThreeIndependentNormals) {
   expect_translation({kX, kY, kZ}, Vector3d::Zero(), 3);
 }
 
-TEST(NewTranslation, OfThreeOrMoreDependentNormalsIsThatOfFewer) {
+TEST(NewTranslation, DependentNormalsDoNotCount) {
   expect_translation({kZ, kZ, kZ, kZ}, {-1.0, -2.0, 0.0}, 1);
   expect_translation({kY, kZ, (kY + kZ).normalized()}, {-1.0, 0.0, 0.0}, 2);
 }
 
-TEST(NewTranslation, OfManyNormalsHeedsThoseMostOpposed) {
+TEST(NewTranslation, ManyNormalsRespectTheMostOpposed) {
   // A fan of planes about the x axis, steeper and steeper, all of them opposed to the motion.
   std::vector<Vector3d> fan;
   for (int i = 0; i <= 200; ++i)
@@ -87,7 +87,7 @@ TEST(NewMotion, OfAContactBesideTheMiddleTurnsThePart) {
   EXPECT_LT((found->w - Vector3d(0.0, -5e-3, 0.0)).norm(), 1e-12);
 }
 
-TEST(NewMotion, OfThreePointsOfAPlaneIsATranslationAlongIt) {
+TEST(NewMotion, ThreePointsOfAPlaneAllowOnlyPlanarMotion) {
   const contact::CouplingStiffness stiffness{1000.0, 10.0};
   contact::ProjectionSolver solver;
   const std::vector<contact::ConstraintRow> rows{
@@ -99,7 +99,7 @@ TEST(NewMotion, OfThreePointsOfAPlaneIsATranslationAlongIt) {
   EXPECT_LT((found->w - 1e-3 * kZ).norm(), 1e-12) << "it may turn about the normal";
 }
 
-TEST(NewMotion, OfContactsThatAskForRoomFromOppositeSidesIsNone) {
+TEST(NewMotion, NoneForInfeasibleOpposedContacts) {
   const contact::CouplingStiffness stiffness{1000.0, 10.0};
   contact::ProjectionSolver solver;
   const std::vector<contact::ConstraintRow> rows{{kZ, Vector3d::Zero(), 1e-6}, {-kZ, Vector3d::Zero(), 1e-6}};

@@ -199,7 +199,7 @@ TEST(PaperSliding, ASheetIsMetFromEitherSideWhateverTheOrderOfVertices) {
   }
 }
 
-TEST(PaperSliding, AThinSheetAtSpeedIsPassedAsOnlyPosesAreChecked) {
+TEST(PaperSliding, FastPartPassesThroughAThinSheet) {
   const geometry::TriangleMesh plate = geometry::make_plate({0.1, 0.1}, 2);
   PaperSliding sliding({obstacle_of(plate)}, part_of(plate), pose({0.0, 0.0, 0.0025}));
   for (int i = 1; i <= 5; ++i)
@@ -222,7 +222,7 @@ TEST(PaperSliding, TheSameGhostGivesTheSameBits) {
   EXPECT_EQ(run(), run());
 }
 
-TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIsRefused) {
+TEST(PaperSliding, RubberBandKeepsOrientationAndIncrementalDiscardsBlockedMotion) {
   PaperSliding band = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.1}, contact::Metaphor::kRubberBand);
   lead(band, pose({0.05, 0.0, 0.12}, Eigen::Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitY()))), 50);
   EXPECT_EQ(band.result().X_WV.linear(), Eigen::Matrix3d::Identity());
@@ -236,7 +236,7 @@ TEST(PaperSliding, TheRubberBandTurnsNothingInFreeSpaceAndIncrementsForgetWhatIs
   EXPECT_NEAR(incremental.result().X_WV.translation().z(), 0.021, 4.0 * incremental.bracket());
 }
 
-TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
+TEST(PaperSliding, ReleasedPartStaysAndRegraspIsSpeedLimited) {
   PaperSliding sliding = box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.03});
   sliding.release();
   EXPECT_EQ(sliding.advance(pose({0.05, 0.0, 0.03})).state, contact::SlidingState::kReleased);
@@ -247,7 +247,7 @@ TEST(PaperSliding, ReleasedItStandsStillAndGraspedAgainItMovesAtALimitedSpeed) {
   EXPECT_NEAR(sliding.result().X_WV.translation().x(), 0.2e-3, 1e-12);
 }
 
-TEST(PaperSliding, RefusesAStartInsideAnObstacleAndABracketOfNothing) {
+TEST(PaperSliding, RefusesACollidingStartAndAZeroBracket) {
   EXPECT_THROW(box_among({sheet_of_two(Vector3d::UnitZ())}, {0.0, 0.0, 0.01}), std::invalid_argument);
   EXPECT_THROW(box_among({}, {0.0, 0.0, 0.01}), std::invalid_argument);
   EXPECT_THROW(PaperSliding({sheet_of_two(Vector3d::UnitZ())}, part_of(geometry::make_box(kBoxSize, 12)),

@@ -10,11 +10,11 @@ namespace {
 using enum PaperState;
 using enum PaperEvent;
 
-TEST(PaperStates, InFreeSpaceTheHandHasControl) {
+TEST(PaperStates, FreeMotionIsDone) {
   EXPECT_EQ(next_state(kMoving, kFree), kDone);
 }
 
-TEST(PaperStates, ACollisionIsApproximatedClassifiedAndTurned) {
+TEST(PaperStates, CollisionLeadsThroughTheStatesToSliding) {
   PaperState state = next_state(kMoving, kCollision);
   for (const PaperState expected : {kBisecting, kClassifying, kNewDirection, kCriterion}) {
     EXPECT_EQ(state, expected);
@@ -23,17 +23,17 @@ TEST(PaperStates, ACollisionIsApproximatedClassifiedAndTurned) {
   EXPECT_EQ(state, kSliding);
 }
 
-TEST(PaperStates, ASlideEndsUnderTheHandsControlOrAtTheNextContact) {
+TEST(PaperStates, SlidingLeadsToMovingOrBisecting) {
   EXPECT_EQ(next_state(kSliding, kFree), kMoving);
   EXPECT_EQ(next_state(kSliding, kCollision), kBisecting);
 }
 
-TEST(PaperStates, TheCriterionEndsIt) {
+TEST(PaperStates, StopOfTheCriterionIsDone) {
   EXPECT_EQ(next_state(kCriterion, kStop), kDone);
   EXPECT_EQ(next_state(kDone, kGoOn), kDone);
 }
 
-TEST(PaperStates, WhatCannotHappenEndsItToo) {
+TEST(PaperStates, ImpossibleEventIsDone) {
   EXPECT_EQ(next_state(kClassifying, kCollision), kDone);
   EXPECT_EQ(next_state(kCriterion, kWorked), kDone);
 }
