@@ -126,14 +126,16 @@ struct DeviceDescriptor {
   /// The properties of the bare device, without commanded forces and without a hand. They determine the stiffness that
   /// the device can render passively (`passive_stiffness`, `finger_stiffness`). 0 means not known, so set a small
   /// positive number for a device with hardly any damping.
-  double damping = 0.0;               ///< viscous friction against translation
-  double rotational_damping = 0.0;    ///< viscous friction against rotation
-  double joint_damping = 0.0;         ///< viscous friction of each finger joint
-  double friction = 0.0;              ///< Coulomb friction against translation, N
-  double joint_friction = 0.0;        ///< Coulomb friction of each finger joint, Nm
-  double resolution = 0.0;            ///< step of the measured position, or standard deviation of its noise
-  double joint_resolution = 0.0;      ///< step of the measured joint angles
-  std::chrono::nanoseconds delay{0};  ///< time from measurement to force, in addition to the period and the link
+  double damping = 0.0;             ///< viscous friction against translation
+  double rotational_damping = 0.0;  ///< viscous friction against rotation
+  double joint_damping = 0.0;       ///< viscous friction of each finger joint
+  double friction = 0.0;            ///< Coulomb friction against translation, N
+  double joint_friction = 0.0;      ///< Coulomb friction of each finger joint, Nm
+  double resolution = 0.0;          ///< step of the measured position, or standard deviation of its noise
+  double joint_resolution = 0.0;    ///< step of the measured joint angles
+  /// Time from measurement to force, in addition to the period and the link. If the device measures at its own times,
+  /// the wait of a measurement for the next tick is a part of this delay.
+  std::chrono::nanoseconds delay{0};
   /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). A rate of 0 stands for the
   /// default: from zero to the maximum in seven periods of the device, or in two periods for joint torques
   /// (`joint_torque_rate`).

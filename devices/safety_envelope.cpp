@@ -37,7 +37,7 @@ struct SafetyEnvelope::Stages {
         check(descriptor, rounded(patience_periods * std::chrono::duration<double>(period))),
         fade(descriptor, in_seconds(period)),
         norms(descriptor),
-        energy(descriptor, period, rounded(patience_periods * std::chrono::duration<double>(period))) {
+        energy(descriptor, rates, period, rounded(patience_periods * std::chrono::duration<double>(period))) {
     descriptor.max_force = rates.max_force();
     descriptor.max_torque = rates.max_torque();
   }
@@ -121,7 +121,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   if (!is_fading) forces = stages.fade.returning(forces);
   limit_power(forces, state, stages.descriptor.max_power, reasons);
   stages.energy.settle(forces, !stages.fade.is_whole(), now, dt);
-  stages.energy.limit(forces, state, stages.rates.time_to_zero(stages.last), now, dt, reasons);
+  stages.energy.limit(forces, state, stages.last, now, dt, reasons);
   stages.rates.limit(forces, stages.last, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};

@@ -12,15 +12,12 @@ namespace {
 
 using std::chrono::nanoseconds;
 
-/// The work on the spare way, J.
-double work_of_last_way(const Forces& forces) noexcept {
-  return kEnvelope.spare_m * forces.f.norm() + kEnvelope.spare_rad * forces.t.norm();
-}
-
 }  // namespace
 
-EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, nanoseconds period, nanoseconds patience)
+EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, const RateLimit& rates, nanoseconds period,
+                         nanoseconds patience)
     : descriptor_(descriptor),
+      rates_(rates),
       longest_known_(std::max<nanoseconds>(patience, kEnvelope.exerted_without_command)),
       period_s_(in_seconds(period)),
       given_(descriptor.delay, std::max<nanoseconds>(kEnvelope.exerted_without_command, 2 * period),
@@ -118,12 +115,13 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
 //   c · (work of going on) + c² · (work of the fall) = energy left.
 // A hand at rest finds the same force from tick to tick, however its velocity trembles: near zero energy the fall alone
 // counts, and c goes as the root of the energy, as the force of a spring does.
-void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_zero, nanoseconds now, double dt,
+void EnergyLimit::limit(Forces& forces, const GloveState& state, const Forces& last, nanoseconds now, double dt,
                         LimitReasons& reasons) noexcept {
   if (state.link_delay > nanoseconds(0)) return;
   const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
-  const double ahead_s = in_seconds(descriptor_.delay) + std::max(kEnvelope.ahead_periods * period_s_, time_to_zero);
+  const double ahead_s =
+      in_seconds(descriptor_.delay) + std::max(kEnvelope.ahead_periods * period_s_, rates_.time_to_zero(last));
   // A brake that follows each change of the velocity would itself shake a light hand at a slow device. A hand that has
   // left a contact fast may come back before a late device has let go: its power is remembered in free space, too.
   power_ = std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH),
@@ -137,6 +135,15 @@ void EnergyLimit::limit(Forces& forces, const GloveState& state, double time_to_
   if (share >= 1.0 || !forces.has_wrench()) return;
   forces.scale_wrench(share);
   reasons.energy_limited = true;
+}
+
+/// On the way that a hand gains which begins to accelerate now, while a late device still exerts the whole wrench and
+/// its rates then bring it to zero.
+double EnergyLimit::work_of_last_way(const Forces& forces) const noexcept {
+  const double late = in_seconds(descriptor_.delay);
+  const double fall = rates_.time_to_zero(forces);
+  const double gained = kEnvelope.acceleration * (late * late / 2.0 + late * fall / 2.0 + fall * fall / 6.0);
+  return std::max(kEnvelope.spare_m, gained) * (forces.f.norm() + forces.t.norm() / kEnvelope.lever_m);
 }
 
 /// A law by which the force goes as the root of an energy is a spring itself, and must be passive, too.

@@ -7,6 +7,7 @@
 #include "envelope/envelope_settings.h"
 #include "envelope/forces.h"
 #include "envelope/given_wrenches.h"
+#include "envelope/simple_limits.h"
 #include "envelope/state_check.h"
 #include "envelope/strokes.h"
 #include "envelope/supply.h"
@@ -16,7 +17,8 @@ namespace glissade::devices {
 class EnergyLimit {
  public:
   /// `patience`: a hand whose states stay away for longer is not taken to have put in anything.
-  EnergyLimit(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period, std::chrono::nanoseconds patience);
+  EnergyLimit(const DeviceDescriptor& descriptor, const RateLimit& rates, std::chrono::nanoseconds period,
+              std::chrono::nanoseconds patience);
 
   /// Counts the work of a motion.
   void observe(const BookedMotion& motion, const Forces& wanted) noexcept;
@@ -27,8 +29,8 @@ class EnergyLimit {
   /// are wanted in this period. `returns`: after an interruption.
   void settle(const Forces& forces, bool returns, std::chrono::nanoseconds now, double dt) noexcept;
 
-  /// `time_to_zero`: seconds in which the device's rates bring its wrench to zero.
-  void limit(Forces& forces, const GloveState& state, double time_to_zero, std::chrono::nanoseconds now, double dt,
+  /// `last`: what the device was given, and what its rates bring to zero.
+  void limit(Forces& forces, const GloveState& state, const Forces& last, std::chrono::nanoseconds now, double dt,
              LimitReasons& reasons) noexcept;
 
   void observe_given(const Forces& wanted, const Forces& given, std::chrono::nanoseconds now) noexcept;
@@ -38,10 +40,12 @@ class EnergyLimit {
 
  private:
   double most() const noexcept;
+  double work_of_last_way(const Forces& forces) const noexcept;
   double work_of_fall(const Forces& forces) const noexcept;
   void book(double change, bool is_jump, std::chrono::nanoseconds now) noexcept;
 
   const DeviceDescriptor& descriptor_;
+  const RateLimit& rates_;
   std::chrono::nanoseconds longest_known_;  // between two states
   double period_s_;
   double stiffness_;             // N/m, which the device renders passively

@@ -44,7 +44,8 @@ struct EnvelopeSettings {
   /// The share of a wrench that is given pays for so long a way before its fall: a force begins without a jump. Longer:
   /// a hand that moves out of a contact is braked.
   double spare_m = 1e-3;
-  double spare_rad = 0.01;
+  double acceleration = 50.0;   ///< m/s², of a hand that leaves: its way within delay and fall is paid in advance, too
+  double lever_m = 0.1;         ///< rotations count by the way at this distance
   double ahead_periods = 10.0;  ///< for which the power is paid in advance: longer than a fade
   double held_power = 3.0;      ///< times what is looked ahead: a brake that follows the velocity shakes light hands
   double most_refill_J = 1.0;   ///< allowance for returns and calm contacts. Less: a soft arm is not lifted
@@ -59,7 +60,6 @@ struct EnvelopeSettings {
   // Strokes, i.e. whether a contact is calm:
   double usual_resolution_m = 30e-6;  ///< of a device that does not tell
   double play_per_resolution = 4.0;   ///< noise of this standard deviation hardly ever leaves the play
-  double play_lever_m = 0.1;          ///< rotations count by the way at this distance
   double forget_s = 0.5;              ///< time constant of the memory of strokes
   double most_stirred_J = 0.01;       ///< to and fro, twice the work from which a contact is not calm
   double most_given_J = 0.1;          ///< remembered of what a hand got more than it put in

@@ -28,7 +28,7 @@ PoseInPlay::PoseInPlay(double resolution, double max_force) noexcept
 
 PoseInPlay::Step PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
   const Step step{beyond(play_, X_WH.translation() - X_WH_.translation()),
-                  beyond(play_ / kEnvelope.play_lever_m, turn_between(X_WH_.linear(), X_WH.linear()))};
+                  beyond(play_ / kEnvelope.lever_m, turn_between(X_WH_.linear(), X_WH.linear()))};
   X_WH_.translation() += step.way;
   if (!step.turn.isZero(0.0)) {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(step.turn.norm(), step.turn.normalized()).toRotationMatrix();

@@ -153,6 +153,30 @@ TEST(LateDevice, GivesNoMoreThanTheAllowanceToAHandThatBeatsTheWall) {
       20);
 }
 
+/// How far a hand has gone so long after it left at 50 m/s² up to 2 m/s.
+double left_by(double seconds) {
+  return seconds < 0.04 ? 25.0 * seconds * seconds : 0.04 + 2.0 * (seconds - 0.04);
+}
+
+// A hand at rest has no power that a limit could see. It accelerates while the force falls.
+TEST(SlowRates, GiveNoMoreThanTheAllowanceToAHandThatLeavesFast) {
+  for (const double update_rate : {100.0, 200.0, 333.0, 1000.0}) {
+    DeviceDescriptor device = simulated_glove_descriptor();
+    device.update_rate = update_rate;
+    device.damping = 10.0;
+    device.max_force = 40.0;
+    device.max_force_rate = device.max_force * update_rate / 15.0;      // the slowest that leaves this force
+    const Arm strong{.mass = 1.0, .stiffness = 1e5, .damping = 630.0};  // goes where it wants to be
+    PressedWall wall(device, strong, 2000.0);
+    for (int ms = 0; ms < 6000; ++ms) {
+      const int in_cycle = ms % 1000;  // presses, rests, is interrupted, rests, and leaves
+      wall.is_enabled = in_cycle < 550 || in_cycle >= 600;
+      wall.step(0.02 * std::min(1.0, in_cycle / 400.0) - left_by(std::max(0.0, 1e-3 * (in_cycle - 850))));
+      ASSERT_LE(wall.work(), 0.1 + 1.0 + 0.3e-3 * ms) << update_rate << " Hz, " << ms << " ms";
+    }
+  }
+}
+
 // A wall that is passive with the damping of arm and device, if nothing limits its energy.
 TEST(LateDevice, HandComesToRestAfterDrawingBack) {
   test_support::RandomNumbers random(2);
