@@ -1,4 +1,5 @@
 #include <chrono>
+#include <system_error>
 #include <utility>
 
 #include <glissade/apps/say.h>
@@ -7,14 +8,21 @@
 
 namespace glissade::apps {
 
-WaitNotice::WaitNotice(std::string doing)
-    : thread_([this, doing = std::move(doing)] {
-        std::unique_lock lock(mutex_);
-        const bool is_short = ended_.wait_for(lock, std::chrono::seconds(2), [this] { return has_ended_; });
-        if (!is_short) say("glissade: " + one_line(doing) + " ...");
-      }) {}
+WaitNotice::WaitNotice(std::string doing) {
+  const auto wait = [this, doing = std::move(doing)] {
+    std::unique_lock lock(mutex_);
+    const bool is_short = ended_.wait_for(lock, std::chrono::seconds(2), [this] { return has_ended_; });
+    if (!is_short) say("glissade: " + one_line(doing) + " ...");
+  };
+  try {
+    thread_ = std::thread(wait);
+  } catch (const std::system_error&) {
+    // Without another thread there is no notice.
+  }
+}
 
 WaitNotice::~WaitNotice() {
+  if (!thread_.joinable()) return;
   {
     const std::scoped_lock lock(mutex_);
     has_ended_ = true;

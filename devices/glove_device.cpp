@@ -52,6 +52,10 @@ void validate(const DeviceDescriptor& descriptor) {
   for (const auto& [field, value] : limits) {
     if (!std::isfinite(value) || value < 0.0) refuse(field, "must be finite and not negative");
   }
+  // A sender that leaves these fields at zero would never feel a force.
+  if (descriptor.max_speed == 0.0) refuse("max_speed", "must be greater than 0");
+  if (descriptor.max_turn_rate == 0.0) refuse("max_turn_rate", "must be greater than 0");
+  if (descriptor.workspace_radius == 0.0) refuse("workspace_radius", "must be greater than 0");
   constexpr double kFastest_Hz = 1e5;
   if (!(descriptor.update_rate >= 1.0 && descriptor.update_rate <= kFastest_Hz))
     refuse("update_rate", "must lie between 1 and 100000 Hz");

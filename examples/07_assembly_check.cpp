@@ -9,6 +9,7 @@ int main(int argc, char** argv) try {
   simulation::Simulation simulation({.objects = {{.name = "fixed", .mesh = {argv[1], 1e-3}},
                                                  {.name = "moving", .mesh = {argv[2], 1e-3}, .movable = true}}});
   simulation::LeastClearance clearance(simulation.bodies());
+  clearance.note(simulation);
   for (int ms = 1; ms <= 1000; ++ms) {
     simulation.advance(Eigen::Isometry3d(Eigen::Translation3d(1e-4 * ms, 0.0, 0.0)));
     clearance.note(simulation);
@@ -17,7 +18,7 @@ int main(int argc, char** argv) try {
     std::cout << "touches '" << simulation.name_of_body(touch.contact.obstacle) << "' at "
               << touch.contact.p_W.transpose() << " m, " << touch.contact.force << " N\n";
   clearance.finish();
-  std::cout << "least clearance " << clearance.least() * 1e3 << " mm after " << clearance.least_at() + 1 << " ms, "
+  std::cout << "least clearance " << clearance.least() * 1e3 << " mm after " << clearance.least_at() << " ms, "
             << simulation.lag(0).v.norm() * 1e3 << " mm from the goal\n";
 } catch (const std::exception& error) {
   std::cerr << "assembly_check: " << error.what() << '\n';

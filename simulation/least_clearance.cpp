@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <string>
 
 #include <glissade/collision/dop_query.h>
 #include <glissade/geometry/displacement.h>
@@ -63,6 +65,11 @@ LeastClearance::LeastClearance(const SceneBodies& bodies, std::size_t part)
 
 void LeastClearance::note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
                           std::span<const contact::Contact> contacts) {
+  if (moving_X_WB.size() != bodies_.size() - first_moving_) {
+    throw std::invalid_argument("a least clearance needs the poses of " +
+                                std::to_string(bodies_.size() - first_moving_) + " other moving bodies, not of " +
+                                std::to_string(moving_X_WB.size()));
+  }
   try_contacts(X_WV, moving_X_WB, contacts);
   X_WV_noted_.push_back(X_WV);
   X_WB_noted_.insert(X_WB_noted_.end(), moving_X_WB.begin(), moving_X_WB.end());
@@ -84,9 +91,14 @@ void LeastClearance::finish() {
 
 void LeastClearance::try_contacts(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
                                   std::span<const contact::Contact> contacts) {
-  const auto nearest =
-      std::min_element(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  if (nearest == contacts.end() || nearest->kind == contact::ContactKind::kOverlap || nearest->gap >= least_) return;
+  // Not those of a hand that holds the part.
+  const auto gap_of = [](const contact::Contact& contact) {
+    return contact.rider < 0 ? contact.gap : std::numeric_limits<double>::infinity();
+  };
+  const auto nearest = std::min_element(contacts.begin(), contacts.end(),
+                                        [&](const auto& a, const auto& b) { return gap_of(a) < gap_of(b); });
+  if (nearest == contacts.end() || nearest->kind == contact::ContactKind::kOverlap || gap_of(*nearest) >= least_)
+    return;
   // The part has a number too, and hands come last.
   const auto number = static_cast<std::size_t>(nearest->obstacle);
   const std::size_t b = number > own_number_ ? number - 1 : number;

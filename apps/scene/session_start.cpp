@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -17,24 +18,40 @@ void soften(contact::HeldPart& part, const devices::DeviceDescriptor& device, st
   part.stiffness = haptics::coupling_for(device, part.stiffness.value(), period).stiffness;
 }
 
+/// The sentence about a part that is held beside its reference point, if contacts are then less than half as stiff.
+std::optional<std::string> softer_beside(const devices::DeviceDescriptor& device,
+                                         const contact::CouplingStiffness& wanted, double stiffness,
+                                         std::chrono::nanoseconds period) {
+  constexpr double kLever_m = 0.1;
+  const double beside = haptics::coupling_within_limits(device, wanted, period, std::chrono::nanoseconds(0), kLever_m)
+                            .stiffness.translational;
+  if (beside >= 0.5 * stiffness) return std::nullopt;
+  return "device " + in_quotes(device.name) + ": a hand 0.1 m beside the reference point of its part has " +
+         rounded_text(beside) + " N/m instead of " + rounded_text(stiffness) +
+         ": the largest that is passive with the rotational damping that it tells";
+}
+
 }  // namespace
 
 std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
                                         std::chrono::nanoseconds period) {
   std::vector<std::string> sentences;
   const contact::CouplingStiffness wanted = stiffness_of(choice, 1.0);
+  const auto add = [&sentences](const std::string& sentence) {
+    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
+  };
   for (const Grip& grip : grips) {
     const double stiffness = haptics::coupling_for(grip.device, wanted, period).stiffness.translational;
     constexpr double kNearly = 1.0 - 1e-3;
+    if (const std::optional<std::string> sentence = softer_beside(grip.device, wanted, stiffness, period))
+      add(*sentence);
     if (stiffness >= kNearly * wanted.translational) continue;
     const std::string reason =
         stiffness >= kNearly * grip.device.max_stiffness
             ? "its largest stiffness"
             : "the largest that is passive with the damping, friction, resolution and delay that it tells";
-    const std::string sentence = "device " + in_quotes(grip.device.name) + ": contacts have " +
-                                 rounded_text(stiffness) + " N/m instead of " + rounded_text(wanted.translational) +
-                                 ": " + reason;
-    if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
+    add("device " + in_quotes(grip.device.name) + ": contacts have " + rounded_text(stiffness) + " N/m instead of " +
+        rounded_text(wanted.translational) + ": " + reason);
   }
   return sentences;
 }

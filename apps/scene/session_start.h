@@ -24,8 +24,8 @@ struct Grip {
   std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 
-/// The devices among these with which contacts are softer than chosen, each in a sentence with the reason. The delay of
-/// a link does not count.
+/// The devices among these with which contacts are softer than chosen, also for a hand 0.1 m beside the reference point
+/// of its part, each in a sentence with the reason. The delay of a link does not count.
 std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
                                         std::chrono::nanoseconds period);
 

@@ -8,11 +8,7 @@
 
 namespace glissade::devices {
 
-namespace {
-
 using std::chrono::nanoseconds;
-
-}  // namespace
 
 EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, const RateLimit& rates, nanoseconds period,
                          nanoseconds patience)
@@ -75,6 +71,7 @@ void EnergyLimit::book(double change, bool is_jump, nanoseconds now) noexcept {
 double EnergyLimit::most() const noexcept {
   Forces greatest;
   greatest.f.x() = descriptor_.max_force;
+  greatest.t.x() = descriptor_.max_torque;
   const double pressed = work_of_last_way(greatest) + work_of_fall(greatest);
   return std::max({kEnvelope.start_energy_J, kEnvelope.most_energy_m * descriptor_.max_force, pressed});
 }
@@ -112,37 +109,46 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
 //
 // What is given is a share c of the wrench: if it goes on for a while at the present velocity, and then falls as a
 // spring's that the device renders passively, it gives just what is left,
-//   c · (work of going on) + c² · (work of the fall) = energy left.
+//   c · (power · time of going on) + (work of the last way of c times the wrench) + c² · (work of the fall) = energy
+//   left.
 // A hand at rest finds the same force from tick to tick, however its velocity trembles: near zero energy the fall alone
 // counts, and c goes as the root of the energy, as the force of a spring does.
 void EnergyLimit::limit(Forces& forces, const GloveState& state, const Forces& last, nanoseconds now, double dt,
                         LimitReasons& reasons) noexcept {
-  if (state.link_delay > nanoseconds(0)) return;
+  if (state.link_delay > nanoseconds(0)) {
+    power_ = 0.0;
+    return;
+  }
   const double fall = work_of_fall(forces);
   // A device whose rates are low goes on giving while its force falls.
   const double ahead_s =
       in_seconds(descriptor_.delay) + std::max(kEnvelope.ahead_periods * period_s_, rates_.time_to_zero(last));
   // A brake that follows each change of the velocity would itself shake a light hand at a slow device. A hand that has
   // left a contact fast may come back before a late device has let go: its power is remembered in free space, too.
-  power_ = std::max(forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH),
-                    power_ * std::exp(-dt / (kEnvelope.held_power * ahead_s)));
-  const double going_on = work_of_last_way(forces) + ahead_s * power_;
+  power_ *= std::exp(-dt / (kEnvelope.held_power * ahead_s));
+  if (!reasons.is_implausible) power_ = std::max(power_, forces.f.dot(state.v_WH) + forces.t.dot(state.w_WH));
   // What the device has been given and does not exert yet is not counted yet.
   const double under_way = std::max(0.0, given_.work_to_come(now, state.v_WH, state.w_WH));
   const double available = std::max(0.0, energy_ - under_way);
-  const double root = going_on + std::sqrt(going_on * going_on + 4.0 * fall * available);
-  const double share = available > 0.0 ? std::min(1.0, 2.0 * available / root) : 0.0;
-  if (share >= 1.0 || !forces.has_wrench()) return;
+  const auto work_of = [&](double share) {
+    Forces given = forces;
+    given.scale_wrench(share);
+    return share * ahead_s * power_ + work_of_last_way(given) + share * share * fall;
+  };
+  if (!forces.has_wrench() || work_of(1.0) <= available) return;
+  double share = 0.0;
+  for (double step = 0.5; step > 1e-12; step *= 0.5) {
+    if (work_of(share + step) <= available) share += step;
+  }
   forces.scale_wrench(share);
   reasons.energy_limited = true;
 }
 
-/// On the way that a hand gains which begins to accelerate now, while a late device still exerts the whole wrench and
-/// its rates then bring it to zero.
+/// On the way that a hand gains which leaves now, while the device's rates bring its wrench to zero: the distance
+/// a t² / 2, weighted with the force that is left.
 double EnergyLimit::work_of_last_way(const Forces& forces) const noexcept {
-  const double late = in_seconds(descriptor_.delay);
   const double fall = rates_.time_to_zero(forces);
-  const double gained = kEnvelope.acceleration * (late * late / 2.0 + late * fall / 2.0 + fall * fall / 6.0);
+  const double gained = kEnvelope.leaving_m_per_s2 * fall * fall / 6.0;
   return std::max(kEnvelope.spare_m, gained) * (forces.f.norm() + forces.t.norm() / kEnvelope.lever_m);
 }
 

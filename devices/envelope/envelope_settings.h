@@ -1,7 +1,7 @@
 #pragma once
 
-/// All numbers of the safety envelope that are chosen, not derived. Each comment says what a larger and a smaller value
-/// would cost. docs/safety.md has the reasoning, and the tests of the envelope pin the values.
+/// The numbers of the envelope's stages that are chosen, not derived: what each is for, and where it is not plain, what
+/// a larger or smaller value would cost. docs/safety.md has the reasoning.
 
 #include <chrono>
 #include <cstdint>
@@ -16,7 +16,7 @@ struct EnvelopeSettings {
   double return_s = 0.2;
   /// No force exceeds what the rates bring to zero in so many periods. More: energy from a force that falls late.
   double longest_fall_periods = 15.0;
-  /// Force of a device without a command. What the maker of a device must do, see docs/safety.md.
+  /// So long a device acts on its last command. What the maker of a device must do, see docs/safety.md.
   std::chrono::milliseconds exerted_without_command{10};
 
   // Mean force:
@@ -44,8 +44,9 @@ struct EnvelopeSettings {
   /// The share of a wrench that is given pays for so long a way before its fall: a force begins without a jump. Longer:
   /// a hand that moves out of a contact is braked.
   double spare_m = 1e-3;
-  double acceleration = 50.0;   ///< m/s², of a hand that leaves: its way within delay and fall is paid in advance, too
-  double lever_m = 0.1;         ///< rotations count by the way at this distance
+  double leaving_m_per_s2 =
+      50.0;                     ///< m/s², of a hand that leaves: its way within delay and fall is paid in advance, too
+  double lever_m = 0.1;         ///< rotations count by the way at this distance, here and for strokes
   double ahead_periods = 10.0;  ///< for which the power is paid in advance: longer than a fade
   double held_power = 3.0;      ///< times what is looked ahead: a brake that follows the velocity shakes light hands
   double most_refill_J = 1.0;   ///< allowance for returns and calm contacts. Less: a soft arm is not lifted

@@ -1,7 +1,8 @@
 #pragma once
 
-/// All numbers of the haptic loop that are chosen, not derived. Each comment says what a larger and a smaller value
-/// would cost. docs/safety.md and docs/real_time.md have the reasoning.
+/// The numbers of the haptic loop that are chosen, not derived: what each is for, and where it is not plain, what a
+/// larger or smaller value would cost. The ages of contact sets are in `contact_set.h`. docs/safety.md has the
+/// reasoning.
 
 #include <numbers>
 

@@ -38,6 +38,14 @@ TEST(SessionStart, TellsWhichDeviceMakesContactsSofterAndWhy) {
                   AllOf(HasSubstr("600 N/m"), HasSubstr("passive"))));
 }
 
+TEST(SessionStart, DeviceWithoutRotationalDampingIsReportedAsSoftBesideTheReferencePoint) {
+  devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
+  device.rotational_damping = 0.0;
+  EXPECT_THAT(softer_devices({{device}}, {}, milliseconds(1)),
+              ElementsAre(AllOf(HasSubstr("0.1 m beside the reference point"), HasSubstr("instead of 1000"),
+                                HasSubstr("rotational damping"))));
+}
+
 TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
   const Grip glove{devices::simulated_glove_descriptor(), 0};
   const double largest = glove.device.max_stiffness;
@@ -55,7 +63,7 @@ TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
   EXPECT_DOUBLE_EQ(stiffness_with(50.0).rotational / stiffness_with(100.0).rotational, 0.5);
   EXPECT_THAT(softer_devices({glove}, {.stiffness_N_per_m = 50.0}, milliseconds(1)), IsEmpty());
   EXPECT_THAT(softer_devices({glove}, {.stiffness_N_per_m = 2.0 * largest}, milliseconds(1)),
-              ElementsAre(HasSubstr("4000 N/m instead of 8000")));
+              ElementsAre(HasSubstr("0.1 m beside the reference point"), HasSubstr("4000 N/m instead of 8000")));
   for (const double wrong : {9.0, 1.1e5})
     test_support::expect_bad_input([&] { stiffness_with(wrong); }, {"--stiffness", "between 10 and 100000"});
 }
