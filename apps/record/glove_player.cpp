@@ -93,7 +93,8 @@ std::vector<GloveTrack> read_glove_tracks(const std::string& log_path, std::stri
   }
   if (!tracks.empty()) return tracks;
   throw std::invalid_argument(log_path +
-                              ": there is no glove to play: no number has both a GLOVE_INFO and a GLOVE_STATE");
+                              ": there is no glove to play: no number has both a GLOVE_INFO and a GLOVE_STATE "
+                              "that this version can read");
 }
 
 std::chrono::nanoseconds duration_of(const std::vector<GloveTrack>& tracks) {
