@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <memory>
 #include <numbers>
+#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -34,6 +36,18 @@ void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, 
       Eigen::AngleAxisd(X_WGoal.linear().transpose() * X_WV.linear()).angle() * 180.0 / std::numbers::pi;
   check.goal_reached =
       check.goal_distance_m <= options.goal_tolerance_m && check.goal_angle_deg <= options.goal_tolerance_deg;
+}
+
+/// The names of the objects that push the part, in the order of the scene.
+std::string text_of_pushing(const HapticScene& scene, std::span<const contact::Contact> contacts) {
+  std::set<std::int32_t> bodies;
+  for (const contact::Contact& contact : contacts) {
+    if (contact.force > 0.0) bodies.insert(contact.obstacle);
+  }
+  std::string names;
+  for (const std::int32_t body : bodies)
+    names += (names.empty() ? "" : ", ") + scene.body_names[static_cast<std::size_t>(body)];
+  return names;
 }
 
 /// How deep the part is in others at the first row, and what can be done about it.
@@ -135,7 +149,9 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   check.clearance_min_at_s = in_seconds(clearance.least_at() * milliseconds(1));
   const Eigen::Isometry3d& X_WV = sliding->result().X_WV;
   note_goal(X_WV, scene.X_WGoal.value_or(trajectory.last_pose()), options, check);
-  if (!check.goal_reached) check.overlaps = text_of_overlaps(scene, std::span(&X_WV, 1), sliding->scripted_X_WB());
+  if (check.goal_reached) return check;
+  check.overlaps = text_of_overlaps(scene, std::span(&X_WV, 1), sliding->scripted_X_WB());
+  check.pushed_by = text_of_pushing(scene, sliding->result().contacts);
   return check;
 }
 
@@ -162,6 +178,44 @@ std::string verdict(const SlideCheck& check, const SlideCheckOptions& options) {
          fixed_text(check.contact_s, 3) + " of " + fixed_text(check.duration_s, 3) + " s in contact";
 }
 
+namespace {
+
+ReportCell number_cell(double value, int decimals) {
+  return {std::isfinite(value) ? fixed_text(value, decimals) : "", value};
+}
+
+/// One row per trajectory with the numbers of the summary.
+ReportTable table_of(const std::vector<SlideCheck>& checks) {
+  ReportTable table{"Trajectories",
+                    {"trajectory", "goal", "pushed at the end by", "distance from goal [mm]", "angle from goal [deg]",
+                     "greatest force [N]", "greatest torque [Nm]", "least clearance [mm]", "its time [s]",
+                     "in contact [s]", "duration [s]"}};
+  for (const SlideCheck& check : checks) {
+    std::vector<ReportCell>& row = table.rows.emplace_back();
+    row.push_back({check.trajectory});
+    if (check.problem) {
+      row.push_back({"not checked: " + *check.problem});
+      row.push_back({});
+      row.resize(table.columns.size(), number_cell(std::numeric_limits<double>::quiet_NaN(), 0));
+      continue;
+    }
+    row.push_back({check.goal_reached ? "reached" : "missed"});
+    row.push_back({check.pushed_by});
+    row.push_back(number_cell(1e3 * check.goal_distance_m, 3));
+    row.push_back(number_cell(check.goal_angle_deg, 2));
+    row.push_back(number_cell(check.force_max_N, 2));
+    row.push_back(number_cell(check.torque_max_Nm, 3));
+    row.push_back(number_cell(1e3 * check.clearance_min_m, 4));
+    const bool is_near = std::isfinite(check.clearance_min_m);
+    row.push_back(number_cell(is_near ? check.clearance_min_at_s : check.clearance_min_m, 3));
+    row.push_back(number_cell(check.contact_s, 3));
+    row.push_back(number_cell(check.duration_s, 3));
+  }
+  return table;
+}
+
+}  // namespace
+
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {
   Report report;
   report.title = "Assembly check of " + scene.parts.front().name;
@@ -173,8 +227,11 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   report.summary.emplace_back("rules", words_of(options.choice));
   report.summary.emplace_back(scene.X_WGoal ? "goal reached" : "end of the trajectory reached",
                               std::to_string(reached) + " of " + std::to_string(checks.size()));
-  for (const SlideCheck& check : checks)
-    report.summary.emplace_back(check.trajectory, verdict(check, options));
+  if (checks.size() == 1) {
+    report.summary.emplace_back(checks.front().trajectory, verdict(checks.front(), options));
+  } else {
+    report.table = table_of(checks);
+  }
 
   std::vector<const SlideCheck*> by_force;
   for (const SlideCheck& check : checks) {

@@ -38,6 +38,7 @@ struct SlideCheck {
   double goal_angle_deg = 0.0;
   double force_max_N = 0.0;
   std::string overlaps;          ///< if the goal is not reached: "at most 0.1 mm deep in 'wall'", if it still is
+  std::string pushed_by;         ///< if the goal is not reached: the objects that push the part at the end
   double torque_max_Nm = 0.0;    ///< about the part's reference point
   double clearance_min_m = 0.0;  ///< of the visible part; infinite if left out
   double clearance_min_at_s = 0.0;

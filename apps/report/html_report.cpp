@@ -4,7 +4,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -23,17 +22,6 @@
 namespace glissade::apps {
 
 namespace {
-
-std::string html_escaped(const std::string& text) {
-  const std::map<char, std::string> escapes{
-      {'&', "&amp;"}, {'<', "&lt;"}, {'>', "&gt;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
-  std::string result;
-  for (const char character : text) {
-    const auto escape = escapes.find(character);
-    result += escape == escapes.end() ? std::string(1, character) : escape->second;
-  }
-  return result;
-}
 
 std::string summary_table(const std::vector<std::pair<std::string, std::string>>& summary) {
   if (summary.empty()) return "";
@@ -106,7 +94,7 @@ std::string data_element(const char* id, const std::string& bytes) {
 
 std::string html_report(const Report& report) {
   const std::string title = html_escaped(report.title);
-  std::string content = "<div class=\"paper\">\n" + summary_table(report.summary) +
+  std::string content = "<div class=\"paper\">\n" + summary_table(report.summary) + to_html(report.table) +
                         "<div id=\"plots\"></div>\n</div>\n" + plots_element(report);
   if (report.replay) {
     content +=

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <glissade/apps/report/plot.h>
+#include <glissade/apps/report/report_table.h>
 
 namespace glissade::apps {
 
@@ -24,6 +25,7 @@ struct Report {
   std::string title;
   std::vector<std::pair<std::string, std::string>> summary;  ///< rows of a table: name, and value with unit
   std::vector<Plot> plots;
+  ReportTable table{};             ///< below the summary
   std::optional<Replay> replay{};  ///< above the summary
 };
 

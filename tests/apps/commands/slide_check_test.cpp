@@ -142,9 +142,26 @@ TEST_F(AssemblyCheck, WritesAPage) {
               testing::HasSubstr("above.csv: goal not reached, "));
   EXPECT_THAT(result.standard_output, testing::EndsWith("report: " + folder.path("page") + "/index.html\n"));
   const std::string page = read_text_file(folder.path("page/index.html"));
-  for (const char* part :
-       {"Assembly check of box", "1 of 2", "above.csv", "not reached, 10.0", "force [N]", "clearance [um]"})
+  for (const char* part : {"Assembly check of box", "1 of 2", "above.csv", "greatest force [N]", "clearance [um]"})
     EXPECT_THAT(page, testing::HasSubstr(part));
+}
+
+TEST_F(AssemblyCheck, ThePageOfSeveralHasATableOfThem) {
+  const std::string inside = trajectory("inside.csv", "0,0,0,0.01,1,0,0,0\n0.1,0,0,0.1,1,0,0,0\n");
+  check({above, inside, below}, {"--report", folder.path("page")});
+  const auto rows = test_support::table_of(read_text_file(folder.path("page/index.html")));
+  ASSERT_EQ(rows.size(), 3U);
+  EXPECT_EQ(rows[0].at("trajectory"), above);
+  EXPECT_EQ(rows[0].at("goal"), "reached");
+  EXPECT_EQ(rows[0].at("pushed at the end by"), "");
+  EXPECT_EQ(rows[0].at("least clearance [mm]"), "5.0000");
+  EXPECT_EQ(rows[0].at("its time [s]"), "0.100");
+  EXPECT_THAT(rows[1].at("goal"), testing::StartsWith("not checked: "));
+  EXPECT_EQ(rows[1].at("duration [s]"), "");
+  EXPECT_EQ(rows[2].at("goal"), "missed");
+  EXPECT_EQ(rows[2].at("pushed at the end by"), "floor");
+  EXPECT_NEAR(std::stod(rows[2].at("distance from goal [mm]")), 10.0, 2e3 * kMargin);
+  EXPECT_EQ(rows[2].at("duration [s]"), "0.100");
 }
 
 TEST_F(AssemblyCheck, PrintsCountsUnlessStandardOutputIsATable) {

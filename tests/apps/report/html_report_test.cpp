@@ -39,6 +39,17 @@ TEST(HtmlReport, NeedsNoNetwork) {
     EXPECT_THAT(html, Not(HasSubstr(reference)));
 }
 
+TEST(HtmlReport, ATableKeepsNumbersToSortBeside) {
+  Report report = small_report();
+  EXPECT_THAT(html_report(report), Not(HasSubstr("<table class=\"rows\">")));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  report.table = {"Ways", {"way", "force [N]"}, {{{"a<b"}, {"0.33", 1.0 / 3.0}}, {{"c"}, {"", nan}}}};
+  const std::string html = html_report(report);
+  EXPECT_THAT(html, HasSubstr("<th scope=\"col\"><button>force [N]</button></th>"));
+  EXPECT_THAT(html, HasSubstr("<tr><td>a&lt;b</td><td class=\"number\" data-number=\"0.333333333\">0.33</td></tr>"));
+  EXPECT_THAT(html, HasSubstr("<tr><td>c</td><td class=\"number\"></td></tr>"));
+}
+
 TEST(HtmlReport, WithAReplayHoldsItsData) {
   Report report = small_report();
   EXPECT_THAT(html_report(report), Not(HasSubstr("id=\"report-frames\"")));

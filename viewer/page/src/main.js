@@ -2,7 +2,7 @@ import './language.js';
 import { Connection } from './connection.js';
 import { Controls } from './controls.js';
 import { parseModel } from './model.js';
-import { isReport, replayData, ReportPlots } from './report.js';
+import { isReport, makeTablesSortable, replayData, ReportPlots } from './report.js';
 import { Stage } from './stage.js';
 import { rowsOf, rowsOfObject, showRows } from './status.js';
 import { Strips } from './strips.js';
@@ -72,6 +72,7 @@ function say(text) {
 
 async function showReport() {
   document.body.classList.add('report');
+  makeTablesSortable();
   const replay = replayData();
   const timeline = new Timeline(replay?.frames);
   const plots = new ReportPlots(timeline); // also where there is no WebGL for the rest

@@ -122,6 +122,35 @@ function addWords(section, { words, series }) {
   });
 }
 
+// Cells with numbers come by their number, empty ones last, all others by their text.
+function comparable(row, column) {
+  const cell = row.cells[column];
+  if (!cell.classList.contains('number')) return cell.textContent;
+  return cell.dataset.number === undefined ? NaN : Number(cell.dataset.number);
+}
+
+function compared(a, b, sign) {
+  if (typeof a === 'string' || typeof b === 'string') return sign * `${a}`.localeCompare(`${b}`, undefined, { numeric: true });
+  if (Number.isNaN(a) || Number.isNaN(b)) return Number.isNaN(a) - Number.isNaN(b);
+  return sign * (a - b);
+}
+
+function sortBy(head) {
+  const descends = head.getAttribute('aria-sort') === 'ascending';
+  for (const other of head.parentElement.cells) other.removeAttribute('aria-sort');
+  head.setAttribute('aria-sort', descends ? 'descending' : 'ascending');
+  const body = head.closest('table').tBodies[0];
+  const keys = new Map([...body.rows].map((row) => [row, comparable(row, head.cellIndex)]));
+  body.append(...[...body.rows].sort((a, b) => compared(keys.get(a), keys.get(b), descends ? -1 : 1)));
+}
+
+// A click on the head of a column sorts the rows, a second one turns their order.
+export function makeTablesSortable() {
+  for (const button of document.querySelectorAll('.rows th button')) {
+    button.addEventListener('click', () => sortBy(button.parentElement));
+  }
+}
+
 export class ReportPlots {
   constructor(timeline) {
     this.charts = new Charts(timeline);

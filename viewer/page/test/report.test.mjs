@@ -160,6 +160,33 @@ test('a report of a run without a loop does not speak of one', async () => {
   await close(grasp);
 });
 
+test('a click on the head of a column sorts the trajectories of an assembly check', async () => {
+  const scene = join(folder, 'scene.yaml');
+  writeFileSync(scene, 'objects:\n  - {name: box, movable: true, shape: {type: box}}\n' +
+    '  - {name: plate, shape: {type: plate}, pose: {position_m: [0, 0, -0.06]}}\n');
+  const depths = { middle: -0.02, deep: -0.025, free: 0.01 };
+  const ways = Object.entries(depths).map(([name, z]) => {
+    const way = join(folder, `${name}.csv`);
+    writeFileSync(way, `t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n1,0,0,${z},1,0,0,0\n`);
+    return way;
+  });
+  execFileSync(PROGRAM, ['slide', scene, '--part', 'box', '--trajectory', ...ways, '--report', folder]);
+  const page = await open(browser, `file://${join(folder, 'index.html')}`);
+  const order = () => page.locator('.rows tbody tr td:first-child')
+    .evaluateAll((all) => all.map((cell) => cell.textContent.match(/(\w+)\.csv/)[1]));
+  assert.deepEqual(await order(), ['middle', 'deep', 'free']);
+  await page.getByRole('button', { name: 'greatest force [N]' }).click();
+  assert.deepEqual(await order(), ['free', 'middle', 'deep']);
+  await page.getByRole('button', { name: 'greatest force [N]' }).click();
+  assert.deepEqual(await order(), ['deep', 'middle', 'free']);
+  await page.getByRole('button', { name: 'trajectory' }).click();
+  assert.deepEqual(await order(), ['deep', 'free', 'middle']);
+  assert.equal(await page.locator('.rows th').first().getAttribute('aria-sort'), 'ascending');
+  assert.equal(await page.locator('.rows th[aria-sort]').count(), 1);
+  await screenshot(page, 'report_check');
+  await close(page);
+});
+
 test('a recorded run is shown again, in a browser and in a report', async () => {
   const log = join(folder, 'run.lcmlog');
   execFileSync(PROGRAM, ['demo', '--offline', '--seconds', '3', '--record', log]);
