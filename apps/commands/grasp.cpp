@@ -60,9 +60,9 @@ constexpr const char* kGraspFooter =
     "\n"
     "Output: one row per millisecond and hand. A row has the visible posture, the touching segments, the type of\n"
     "grasp (none, push, precision, power), the grasped object with its pose, and the forces of the fingertips.\n"
-    "--objects writes one row per millisecond and movable object with its pose and the wrench on the hands. If both\n"
-    "tables go to files, the standard output says for each hand how long it held an object, or why it held nothing,\n"
-    "and for each part how far it ended from its start.\n"
+    "--objects writes one row per millisecond and movable object with its pose and the wrench on the hands. If no\n"
+    "table goes to the standard output, a summary there says for each hand how long it held an object, or why it held\n"
+    "nothing, and for each part how far it ended from its start.\n"
     "For all columns, see docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
@@ -76,9 +76,12 @@ struct GraspOptions {
   std::vector<std::string> trajectories;
   std::vector<std::string> hands;
   SlidingChoice sliding;
-  std::string out = "-";
+  std::string out;
   std::string objects;
   std::string report;
+
+  /// The file of the table of the hands; "-": standard output; empty: none.
+  std::string hand_table() const { return out.empty() && objects.empty() && report.empty() ? "-" : out; }
 };
 
 std::vector<std::string> hand_columns() {
@@ -124,14 +127,16 @@ class GraspTables {
  public:
   GraspTables(const HapticScene& scene, const grasping::GraspSimulation& simulation,
               const std::vector<std::shared_ptr<const grasping::HandModel>>& hands, const GraspOptions& options)
-      : scene_(scene), simulation_(simulation), hands_(hands), hand_rows_(options.out, hand_columns()) {
+      : scene_(scene), simulation_(simulation), hands_(hands) {
+    if (const std::string file = options.hand_table(); !file.empty())
+      hand_rows_ = std::make_unique<CsvWriter>(file, hand_columns());
     for (const std::shared_ptr<const grasping::HandModel>& hand : hands)
       fingertips_.emplace_back(haptics::finger_hand(*hand), devices::simulated_glove_descriptor());
     if (!options.objects.empty()) object_rows_ = std::make_unique<CsvWriter>(options.objects, object_columns());
   }
 
   void write(double time_s, const std::vector<std::optional<grasping::Posture>>& targets) {
-    for (std::size_t h = 0; h < simulation_.hand_count(); ++h)
+    for (std::size_t h = 0; hand_rows_ != nullptr && h < simulation_.hand_count(); ++h)
       write_hand(time_s, h, *targets[h]);
     if (object_rows_ == nullptr) return;
     for (std::size_t p = 0; p < simulation_.part_count(); ++p)
@@ -139,7 +144,7 @@ class GraspTables {
   }
 
   void close() {
-    hand_rows_.close();
+    if (hand_rows_) hand_rows_->close();
     if (object_rows_) object_rows_->close();
   }
 
@@ -147,27 +152,27 @@ class GraspTables {
   void write_hand(double time_s, std::size_t h, const grasping::Posture& target) {
     const grasping::Posture& posture = simulation_.posture(h);
     const grasping::Grasp& grasp = simulation_.grasp(h);
-    hand_rows_.add(time_s)
+    hand_rows_->add(time_s)
         .add(static_cast<std::int64_t>(h))
         .add(hands::name_of(simulation_.activity(h)))
         .add(posture.X_WR);
     for (const double value : posture.values)
-      hand_rows_.add(value);
+      hand_rows_->add(value);
     const std::vector<std::string> touching = touching_segments(h);
     std::string names;  // such as "palm index_distal"
     for (const std::string& name : touching)
       names += (names.empty() ? "" : " ") + name;
-    hand_rows_.add(names).add(name_of(grasp.type)).add(name_of(grasp.form));
+    hand_rows_->add(names).add(name_of(grasp.type)).add(name_of(grasp.form));
     Eigen::Isometry3d X_WO = Eigen::Isometry3d::Identity();
     if (grasp.object < 0) {
-      hand_rows_.add("");
+      hand_rows_->add("");
     } else {
       const auto body = static_cast<std::size_t>(grasp.object);
-      hand_rows_.add(scene_.body_names[body]);
+      hand_rows_->add(scene_.body_names[body]);
       X_WO = body < scene_.obstacles.size() ? scene_.obstacles[body].X_WO
                                             : simulation_.parts().result(body - scene_.obstacles.size()).X_WV;
     }
-    hand_rows_.add(X_WO);
+    hand_rows_->add(X_WO);
     hands::JointValues angles;
     std::copy(target.values.begin(), target.values.end(), angles.begin());
     const std::array<double, haptics::kFingers> forces =
@@ -175,9 +180,9 @@ class GraspTables {
     for (std::size_t finger = 0; finger < haptics::kFingers; ++finger) {
       const std::string tip = std::string(kFingerNames[finger]) + "_distal";
       const bool touches = std::find(touching.begin(), touching.end(), tip) != touching.end();
-      hand_rows_.add(touches ? forces[finger] : 0.0);
+      hand_rows_->add(touches ? forces[finger] : 0.0);
     }
-    hand_rows_.end_row();
+    hand_rows_->end_row();
   }
 
   /// The names of the segments that touch.
@@ -208,7 +213,7 @@ class GraspTables {
   const grasping::GraspSimulation& simulation_;
   const std::vector<std::shared_ptr<const grasping::HandModel>>& hands_;
   std::vector<haptics::FingertipForces> fingertips_;
-  CsvWriter hand_rows_;
+  std::unique_ptr<CsvWriter> hand_rows_;
   std::unique_ptr<CsvWriter> object_rows_;
 };
 
@@ -253,8 +258,14 @@ void warn_of_units(const std::string& file, const HandTrajectory& trajectory, co
   }
 }
 
+void print(const std::vector<std::pair<std::string, std::string>>& rows) {
+  for (const auto& [name, value] : rows)
+    std::cout << std::left << std::setw(16) << name << "  " << value << '\n';
+}
+
 int run(const GraspOptions& options) {
-  check_distinct({{"--out", options.out}, {"--objects", options.objects}, {"--report", report_page(options.report)}});
+  check_distinct(
+      {{"--out", options.hand_table()}, {"--objects", options.objects}, {"--report", report_page(options.report)}});
   if (!options.report.empty()) prepare_report_folder(options.report);
   std::vector<HandTrajectory> trajectories;
   for (const std::string& file : options.trajectories)
@@ -307,10 +318,7 @@ int run(const GraspOptions& options) {
     page.summary.emplace_back("rules", words_of(options.sliding));
     rows.emplace_back("report", write_html_report(page, options.report));
   }
-  if (options.out != "-" && options.objects != "-") {
-    for (const auto& [name, value] : rows)
-      std::cout << std::left << std::setw(16) << name << "  " << value << '\n';
-  }
+  if (options.hand_table() != "-" && options.objects != "-") print(rows);
   return 0;
 }
 
@@ -327,7 +335,8 @@ void add_grasp_command(CLI::App& app, Command& chosen) {
       ->required();
   command->add_option("--hand", options->hands, "Hand file (YAML), see below");
   add_sliding_options(*command, options->sliding);
-  command->add_option("--out", options->out, "CSV file for the hands (-: standard output)")->capture_default_str();
+  command->add_option("--out", options->out,
+                      "CSV file for the hands (default: standard output, or no file with --objects or --report)");
   command->add_option("--objects", options->objects, "CSV file for the movable objects, see below");
   command
       ->add_option("--report", options->report,

@@ -191,6 +191,18 @@ TEST_F(GraspCommand, PrintsNoSummaryAmongTableRows) {
   EXPECT_EQ(table.standard_output.find("holds for"), std::string::npos);
 }
 
+TEST_F(GraspCommand, WithAnotherOutputPrintsTheSummaryOnly) {
+  const std::vector<std::string> command{"grasp", kScene, "--hand-trajectory", first_seconds()};
+  for (const auto& [option, output] : {std::pair("--report", "report"), std::pair("--objects", "objects.csv")}) {
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {option, folder.path(output)});
+    const ProgramResult run = glissade(arguments);
+    EXPECT_EQ(run.exit_code, 0) << run.standard_error;
+    EXPECT_THAT(run.standard_output, testing::HasSubstr("\nhand 0 "));
+    EXPECT_THAT(run.standard_output, testing::Not(testing::HasSubstr("t_s,"))) << option;
+  }
+}
+
 TEST_F(GraspCommand, AcceptsAHandShapeFile) {
   const std::string shape = folder.write("hand.yaml", "side: left\nlength_m: 0.166\nbreadth_m: 0.075\n");
   const ProgramResult result =
