@@ -13,17 +13,18 @@ namespace {
 
 constexpr std::chrono::seconds kQuietTime{1};
 constexpr std::chrono::milliseconds kRedrawPeriod{100};
-constexpr std::chrono::seconds kLinePeriod{30};  // without a terminal
 constexpr int kBarWidth = 40;
 
 }  // namespace
 
-ProgressBar::ProgressBar(std::string label, std::int64_t total, AmountText amount)
+ProgressBar::ProgressBar(std::string label, std::int64_t total, AmountText amount,
+                         std::chrono::milliseconds line_period)
     : label_(std::move(label)),
       total_(total),
       amount_(std::move(amount)),
+      line_period_(line_period),
       on_terminal_(isatty(STDERR_FILENO) == 1),
-      next_draw_(std::chrono::steady_clock::now() + (on_terminal_ ? kQuietTime : kLinePeriod)) {}
+      next_draw_(std::chrono::steady_clock::now() + (on_terminal_ ? kQuietTime : line_period_ / 2)) {}
 
 ProgressBar::~ProgressBar() {
   erase();
@@ -48,7 +49,7 @@ void ProgressBar::tell(std::int64_t done) {
   std::cerr << "glissade: " << label_ << ": " << std::clamp<std::int64_t>(done, 0, total_) * 100 / total_ << " %";
   if (amount_) std::cerr << ", " << amount_(done, total_);
   std::cerr << std::endl;
-  next_draw_ = std::chrono::steady_clock::now() + kLinePeriod;
+  next_draw_ = std::chrono::steady_clock::now() + line_period_;
 }
 
 void ProgressBar::draw(std::int64_t done) {

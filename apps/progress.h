@@ -13,11 +13,16 @@ namespace glissade::apps {
 using AmountText = std::function<std::string(std::int64_t done, std::int64_t total)>;
 
 /// Shows the progress of counted work on standard error. On a terminal, as a bar, once the work has taken a second; the
-/// destructor erases it. Elsewhere, as a line every half minute. Not thread-safe; may block on standard error.
+/// destructor erases it. Elsewhere, as a line after half a period and after each further period. Not thread-safe; may
+/// block on standard error.
 class ProgressBar {
  public:
-  /// `total` > 0 is the amount of work. `amount`, if there is one, follows the bar.
-  ProgressBar(std::string label, std::int64_t total, AmountText amount = {});
+  static constexpr std::chrono::milliseconds kLinePeriod = std::chrono::seconds(10);
+
+  /// `total` > 0 is the amount of work. `amount`, if there is one, follows the bar. `line_period` is the period of
+  /// lines, where there is no terminal.
+  ProgressBar(std::string label, std::int64_t total, AmountText amount = {},
+              std::chrono::milliseconds line_period = kLinePeriod);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -35,6 +40,7 @@ class ProgressBar {
   std::string label_;
   std::int64_t total_;
   AmountText amount_;
+  std::chrono::milliseconds line_period_;
   bool on_terminal_;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point next_draw_;

@@ -24,6 +24,19 @@ TEST(ProgressLine, TellsTheSimulatedTime) {
   EXPECT_EQ(simulated_time(7000, 6000), "6.000 of 6.000 s simulated");
 }
 
+TEST(ProgressBar, WithoutATerminalPrintsALineInEveryPeriod) {
+  using std::chrono::milliseconds;
+  testing::internal::CaptureStderr();
+  ProgressBar progress("sliding", 200, {}, milliseconds(100));
+  progress.update(10);
+  std::this_thread::sleep_for(milliseconds(60));
+  progress.update(20);
+  progress.update(21);
+  std::this_thread::sleep_for(milliseconds(110));
+  progress.update(40);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "glissade: sliding: 10 %\nglissade: sliding: 20 %\n");
+}
+
 TEST(WaitNotice, OneLineIfTheWorkTakesLong) {
   testing::internal::CaptureStderr();
   { const WaitNotice notice("reading door.stl"); }
