@@ -51,15 +51,30 @@ RunWatch::News RunWatch::news(std::int64_t late_ticks) {
     tell_hold(h, sentences);
     tell_loss(h, sentences);
   }
-  std::stable_sort(sentences.begin(), sentences.end(),
-                   [](const TimedSentence& a, const TimedSentence& b) { return a.time < b.time; });
   News news;
-  for (const TimedSentence& sentence : sentences) {
-    const double since_start = in_seconds(sentence.time - newest_.value().start);
-    news.events.push_back(fixed_text(since_start, 3) + " s: " + sentence.text);
-  }
+  news.events = in_order(std::move(sentences));
   news.status = status(late_ticks);
   return news;
+}
+
+std::vector<std::string> RunWatch::in_order(std::vector<TimedSentence> sentences) {
+  const auto is_earlier = [](const TimedSentence& a, const TimedSentence& b) { return a.time < b.time; };
+  const auto text_of = [&](nanoseconds time) { return fixed_text(in_seconds(time - newest_.value().start), 3) + " s"; };
+  std::stable_sort(sentences.begin(), sentences.end(), is_earlier);
+  // Reasons may be of ticks after the newest state.
+  nanoseconds now = std::max(newest_.value().state.time, last_told_);
+  if (!sentences.empty()) now = std::max(now, sentences.back().time);
+  for (TimedSentence& sentence : sentences) {
+    if (sentence.time >= last_told_) continue;
+    sentence.text += " (at " + text_of(sentence.time) + ")";
+    sentence.time = now;
+  }
+  std::stable_sort(sentences.begin(), sentences.end(), is_earlier);
+  std::vector<std::string> lines;
+  for (const TimedSentence& sentence : sentences)
+    lines.push_back(text_of(sentence.time) + ": " + sentence.text);
+  if (!sentences.empty()) last_told_ = sentences.back().time;
+  return lines;
 }
 
 std::string RunWatch::name_of(const Told& hand) const {

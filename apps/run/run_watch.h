@@ -32,8 +32,10 @@ class RunWatch {
   void note(const devices::HapticState& state) noexcept;
 
   struct News {
-    std::vector<std::string> events;  ///< since the last call, such as "12.345 s: the glove takes 'motor'"
-    std::string status;               ///< as `to_text` of `RunStatus`; empty before the first tick
+    /// Since the last call, such as "12.345 s: the glove takes 'motor'". The times of lines never fall: an event that
+    /// is told after a later one has the present time, and its own at the end, such as "(at 11.845 s)".
+    std::vector<std::string> events;
+    std::string status;  ///< as `to_text` of `RunStatus`; empty before the first tick
   };
 
   /// One thread, some times a second. `late_ticks` is their number so far.
@@ -56,6 +58,7 @@ class RunWatch {
     devices::HapticState state;
   };
 
+  std::vector<std::string> in_order(std::vector<TimedSentence> sentences);
   std::string name_of(const Told& hand) const;
   void tell_reasons(std::vector<TimedSentence>& sentences);
   void tell_hold(std::size_t hand, std::vector<TimedSentence>& sentences);
@@ -79,6 +82,7 @@ class RunWatch {
   bool has_news_ = false;
   std::int64_t last_sequence_ = 0;
   std::chrono::nanoseconds last_time_{0};
+  std::chrono::nanoseconds last_told_{0};  // the greatest time of a line
 };
 
 }  // namespace glissade::apps

@@ -91,7 +91,19 @@ TEST_F(Watch, TellsThatAGloveIsLostAndBack) {
   run(milliseconds(1000));
   EXPECT_THAT(told_, ElementsAre(HasSubstr("0.100 s: glove 2: no force: the glove's state is"),
                                  "0.699 s: glove 2 is lost: no state for 0.5 s", "2.199 s: glove 2 is back after 2.0 s",
-                                 "2.100 s: glove 2: the force returns after 2.00 s"));
+                                 "2.699 s: glove 2: the force returns after 2.00 s (at 2.100 s)"));
+}
+
+TEST_F(Watch, TimesOfLinesNeverFall) {
+  const auto is_old = [&](bool is) { state_.hands[1].reasons.is_state_old = is; };
+  is_old(true);
+  run(milliseconds(100));
+  is_old(false);
+  run(milliseconds(100));
+  state_.hands[0].part = -1;
+  run(milliseconds(900));
+  EXPECT_THAT(told_, ElementsAre(HasSubstr("0.000 s: glove 2: no force: "), "0.200 s: glove 1 lets go of 'motor'",
+                                 "0.699 s: glove 2: the force returns after 0.10 s (at 0.100 s)"));
 }
 
 TEST_F(Watch, ALateSimulationIsToldOnceForAllHands) {
