@@ -138,6 +138,9 @@ class LcmGloveHost {
 
   /// Statistics of the messages from the server. Any thread.
   LinkStatistics statistics() const noexcept;
+  /// Whether another glove has announced itself under the number of this glove since construction. A server listens to
+  /// one of the two only. Wait-free, any thread.
+  bool shares_number() const noexcept { return shares_number_.load(std::memory_order_relaxed); }
 
  private:
   std::shared_ptr<LcmBus> bus_;
@@ -150,7 +153,9 @@ class LcmGloveHost {
   realtime::TripleBuffer<GloveCommand> commands_;
   std::optional<std::chrono::nanoseconds> announced_;
   std::unique_ptr<LinkMonitor> monitor_;
+  std::atomic<bool> shares_number_{false};
   std::unique_ptr<LcmBus::Subscription> subscription_;
+  std::unique_ptr<LcmBus::Subscription> announcements_;
 };
 
 }  // namespace glissade::devices

@@ -49,6 +49,8 @@ class SimulatedGloveService {
   double greatest_force() const noexcept { return greatest_force_; }
   /// Statistics of the messages from the server. Any thread.
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
+  /// Whether another glove sends under the same number. Any thread.
+  bool shares_number() const noexcept { return host_.shares_number(); }
 
  private:
   bool tick(std::chrono::nanoseconds deadline) noexcept;

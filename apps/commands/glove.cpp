@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -41,7 +42,8 @@ constexpr const char* kGloveFooter =
     "The hand waits at the first pose until a haptic server ('glissade run') sends a command. The hand yields to\n"
     "forces. If the server or the visible parts are slow, the simulated wearer waits for at most three seconds. The\n"
     "process ends at the end of the script, or with Ctrl-C. When the force fades, the command prints the reason to\n"
-    "standard error. For the columns of --record, see docs/file_formats.md in the sources.\n"
+    "standard error. If another glove sends under the same number, it says so there. For the columns of --record, see\n"
+    "docs/file_formats.md in the sources.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a server:\n"
     "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv\n"
@@ -106,6 +108,11 @@ class GloveRecord {
   CsvWriter csv_;
 };
 
+std::string told_of_another(std::int64_t device) {
+  return "another glove sends as glove " + std::to_string(device) +
+         ", and a server hears only one of the two: give one another --device";
+}
+
 int run(const GloveOptions& options) {
   if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
     throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
@@ -145,8 +152,11 @@ int run(const GloveOptions& options) {
   const std::string missing = missing_rights(!kNeedsFifo, has_locked_memory);
   if (!missing.empty()) line.say("glissade glove: " + missing);
   line.say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
+  bool has_told_of_another = false;
   for (int i = 0; glove.script_time() < duration && !StopSignal::requested(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    if (glove.shares_number() && !std::exchange(has_told_of_another, true))
+      line.say("glissade glove: " + told_of_another(options.device));
     if (record) record->write();
     for (const std::string& event : watch.events())
       line.say("glissade glove: " + event);

@@ -31,6 +31,12 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
       commands_.publish(command);
     }
   });
+  announcements_ = bus_->subscribe(kGloveInfoChannel, [this](std::span<const std::uint8_t> message) {
+    GloveInfo info;
+    if (decode(message, info) != MessageError::kNone) return;
+    if (info.device == options_.device && info.session != session_)
+      shares_number_.store(true, std::memory_order_relaxed);
+  });
 }
 
 LcmGloveHost::~LcmGloveHost() = default;

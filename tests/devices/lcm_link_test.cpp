@@ -230,6 +230,11 @@ TEST_F(BothEnds, ASecondGloveOfTheSameNumberIsNotListenedTo) {
     return glove.statistics().other_sender > 20;
   }));
   EXPECT_TRUE(eventually([&] { return twin.statistics().other_receiver > 0; })) << "commands name the glove's session";
+  EXPECT_TRUE(eventually([&] {
+    twin.publish(elsewhere);
+    host.publish(state);
+    return twin.shares_number() && host.shares_number();
+  })) << "each hears the announcements of the other";
 }
 
 TEST_F(BothEnds, GlovesWithDifferentNumbersAreIndependent) {
@@ -247,6 +252,7 @@ TEST_F(BothEnds, GlovesWithDifferentNumbersAreIndependent) {
   EXPECT_EQ(seen_left.X_WH.translation().x(), 0.5);
   EXPECT_EQ(seen.X_WH.translation().x(), 0.0);
   EXPECT_EQ(left.statistics().accepted, 0U);
+  EXPECT_FALSE(left.shares_number());
   EXPECT_GT(left.statistics().other_receiver, 0U);
 }
 

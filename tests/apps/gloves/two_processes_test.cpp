@@ -243,6 +243,7 @@ TEST(ThreeProcesses, SecondGloveWithTheSameNumberIsReported) {
   EXPECT_TRUE(says(server, "holds 'box'"));
   const test_support::Process second({GLISSADE_PROGRAM, "glove", "--lcm", test_support::kUrl});
   EXPECT_TRUE(says(server, "a second glove sends as glove 1, and is not heard")) << server.standard_error();
+  EXPECT_TRUE(says(second, "another glove sends as glove 1, ")) << second.standard_error();
 }
 
 TEST(TwoProcesses, TakenViewPortIsReportedBeforeWaitingForGloves) {
