@@ -86,7 +86,7 @@ int view(const ViewOptions& options) {
     scene.hands.push_back({"glove " + std::to_string(device), model});
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   const StopSignal stop_signal;
-  viewer::ViewServer server(std::move(scene), options.port);
+  const std::unique_ptr<viewer::ViewServer> server = open_view(std::move(scene), options.port, "--port");
   Received received;
   const auto subscription = bus->subscribe("HAPTIC_STATE", [&](std::span<const std::uint8_t> bytes) {
     const auto state = devices::haptic_state_of({.channel = "HAPTIC_STATE", .message = {bytes.begin(), bytes.end()}});
@@ -99,10 +99,10 @@ int view(const ViewOptions& options) {
       received.doubt = std::move(doubt);
     }
     ++received.states;
-    server.push(*state);
+    server->push(*state);
   });
   StatusLine line;
-  line.say("glissade view: " + server.url() + " shows the states of a server at " + options.lcm.url + "; Ctrl-C ends");
+  line.say("glissade view: " + server->url() + " shows the states of a server at " + options.lcm.url + "; Ctrl-C ends");
   bool has_warned = false;
   const auto start = std::chrono::steady_clock::now();
   const auto is_over = [&] {

@@ -14,7 +14,7 @@ void ReplayView::begin(const HapticScene& scene, const SlidingChoice& /*choice*/
                        const std::vector<std::shared_ptr<const grasping::HandModel>>& models) {
   start_.reset();
   server_.reset();  // that of the run before has the port
-  server_ = std::make_unique<viewer::ViewServer>(view_scene_of(scene, glove_names(devices), models), port_);
+  server_ = open_view(view_scene_of(scene, glove_names(devices), models), port_);
   say("glissade replay: open " + server_->url() + " in a browser: then it starts");
   while (!server_->has_had_client() && !StopSignal::requested())
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

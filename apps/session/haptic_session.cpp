@@ -145,8 +145,8 @@ std::unique_ptr<viewer::ViewServer> view_of(const HapticScene& scene, const RunS
   std::vector<std::int64_t> devices;
   for (const SessionHand& hand : settings.hands)
     devices.push_back(hand.device);
-  auto server = std::make_unique<viewer::ViewServer>(
-      view_scene_of(scene, glove_names(devices), hand_models(simulation, devices.size())), *settings.view_port);
+  auto server = open_view(view_scene_of(scene, glove_names(devices), hand_models(simulation, devices.size())),
+                          *settings.view_port);
   watch({.sentences = {"open " + server->url() + (settings.waits_for_page ? " in a browser: then it starts" : "")}});
   while (settings.waits_for_page && !server->has_had_client() && !should_stop())
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -240,7 +240,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   start_simulation(scene, {}, settings.choice, {});  // errors come before waiting
   validate(settings.record);
   if (settings.period) check_spin(settings.spin, *settings.period);
-  if (settings.view_port) viewer::ViewServer({}, *settings.view_port);  // throws if the port is taken
+  if (settings.view_port) open_view({}, *settings.view_port);  // throws if the port is taken
   const std::vector<devices::GloveInfo> infos = wait_for_gloves(bus, settings.hands, should_stop, watch);
   const std::vector<Grip> grips = grips_of(settings.hands, infos);
   const std::chrono::nanoseconds fastest = period_of_fastest(grips);

@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <charconv>
+#include <stdexcept>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
@@ -36,6 +38,15 @@ Replay replay_of(const Session& session, const HapticScene& scene) {
   for (std::size_t i = 0; i < session.samples->size(); ++i)
     maker.add(session.samples->state(i));
   return maker.finish();
+}
+
+std::unique_ptr<viewer::ViewServer> open_view(viewer::ViewScene scene, std::uint16_t port, const std::string& option) {
+  try {
+    return std::make_unique<viewer::ViewServer>(std::move(scene), port);
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(option + ": " + error.what() + "; choose another port, or any free one with " + option +
+                                " 0");
+  }
 }
 
 CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port) {

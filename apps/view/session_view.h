@@ -13,6 +13,7 @@
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/viewer/view_scene.h>
+#include <glissade/viewer/view_server.h>
 
 namespace CLI {
 class App;
@@ -35,6 +36,11 @@ viewer::ViewScene view_scene_of(const HapticScene& scene, const std::vector<std:
 
 /// The port of the text of an option. Throws CLI::ValidationError, naming the option and what is allowed.
 std::uint16_t parse_port(const std::string& option, const std::string& text);
+
+/// A server of the page at this port. Throws std::invalid_argument, naming the option that gave the port and how to get
+/// another one, if it cannot be opened.
+std::unique_ptr<viewer::ViewServer> open_view(viewer::ViewScene scene, std::uint16_t port,
+                                              const std::string& option = "--view");
 
 /// Adds --view [PORT]; `port` stays empty without it.
 CLI::Option* add_view_option(CLI::App& command, std::optional<std::uint16_t>& port);

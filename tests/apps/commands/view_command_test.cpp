@@ -1,6 +1,10 @@
 // Wrong use of `glissade view` and of --view.
 
+#include <string>
+
 #include <gtest/gtest.h>
+
+#include <glissade/viewer/view_server.h>
 
 #include "glissade_program.h"
 
@@ -14,6 +18,13 @@ TEST(ViewCommand, NamesWhatIsWrong) {
   expect_refused({"view", "--lcm", "memq://"}, {"--lcm", "one process only"});
   expect_refused({"view", "--hand", "hand.yaml"}, {"--hand", "--fingers"});
   expect_refused({"view", "--port", "65536"}, {"--port", "must be a port, 0 to 65535, not '65536'"});
+}
+
+TEST(ViewOption, ATakenPortNamesTheOption) {
+  const viewer::ViewServer other(viewer::ViewScene{});
+  const std::string port = std::to_string(other.port());
+  expect_refused({"demo", "--view", port},
+                 {"--view: port " + port + " cannot be opened", "choose another port, or any free one with --view 0"});
 }
 
 TEST(ViewOption, TakesAPortOrNothing) {

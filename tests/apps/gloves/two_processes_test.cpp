@@ -252,7 +252,9 @@ TEST(TwoProcesses, TakenViewPortIsReportedBeforeWaitingForGloves) {
   const test_support::Process viewer({GLISSADE_PROGRAM, "view", "--lcm", test_support::kUrl, "--port", "8499"});
   ASSERT_TRUE(says(viewer, "http://127.0.0.1:8499/"));
   test_support::expect_refused({"run", write_box_on_plate(folder), "--lcm", test_support::kUrl, "--view", "8499"},
-                               {"8499"});
+                               {"--view: port 8499", "--view 0"});
+  test_support::expect_refused({"view", "--lcm", test_support::kUrl, "--port", "8499"},
+                               {"--port: port 8499", "--port 0"});
 }
 
 TEST(TwoProcesses, AServerThatCannotStartSaysNothingOfWaiting) {
