@@ -38,6 +38,7 @@ constexpr const char* kViewFooter =
     "Receives HAPTIC_STATE, which 'glissade run', 'record' and 'demo' publish at their LCM address, and serves a page\n"
     "on this machine. SCENE must be the scene of the server. The default is the scene of 'glissade demo'. The command\n"
     "sends nothing to the server, so it disturbs no hand. 'run', 'demo' and 'replay' have their own page with --view.\n"
+    "If no state has come after 5 s or at the end, a line on standard error says so.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a demonstration as the server:\n"
     "  glissade demo --seconds 10 --lcm 'udpm://239.255.76.67:7667?ttl=0' & glissade view --seconds 10\n"
@@ -67,6 +68,14 @@ std::string doubt_of(Received& received) {
     return "the states of the server cannot be read: they come from another version of glissade";
   const std::lock_guard lock(received.mutex);
   return received.doubt;
+}
+
+/// Why the page shows nothing, and what to start.
+std::string told_of_silence(const devices::LcmBus& bus, const LcmAddress& lcm) {
+  if (bus.refused_packets() > 0)
+    return "packets are refused: they come from another machine or interface, or have another key";
+  return "no server has been heard on HAPTIC_STATE at " + lcm.url + "; start one, such as: glissade demo --lcm '" +
+         lcm.url + "'" + (lcm.key_file.empty() ? "" : " --key-file " + lcm.key_file);
 }
 
 int view(const ViewOptions& options) {
@@ -104,19 +113,27 @@ int view(const ViewOptions& options) {
   StatusLine line;
   line.say("glissade view: " + server->url() + " shows the states of a server at " + options.lcm.url + "; Ctrl-C ends");
   bool has_warned = false;
+  bool has_told_of_silence = false;
   const auto start = std::chrono::steady_clock::now();
+  const auto passed_s = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); };
   const auto is_over = [&] {
-    const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
-    return StopSignal::requested() || (options.seconds > 0.0 && passed.count() > options.seconds);
+    return StopSignal::requested() || (options.seconds > 0.0 && passed_s() > options.seconds);
+  };
+  const auto tell_if_silent = [&] {
+    if (received.states > 0 || received.has_unreadable || std::exchange(has_told_of_silence, true)) return;
+    line.say("glissade view: " + told_of_silence(*bus, options.lcm));
   };
   while (!is_over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    constexpr double kSilence_s = 5.0;
+    if (passed_s() > kSilence_s) tell_if_silent();
     if (const std::string doubt = doubt_of(received); !has_warned && !doubt.empty()) {
       has_warned = true;
       line.say("glissade view: " + doubt);
     }
     line.show(received.states == 0 ? "waiting for a server" : std::to_string(received.states) + " states");
   }
+  tell_if_silent();
   return 0;
 }
 

@@ -51,6 +51,17 @@ TEST(ViewInAnotherProcess, ShowsTheTicksOfTheServer) {
   EXPECT_EQ(result.standard_error.find("is it the server's scene?"), std::string::npos) << result.standard_error;
 }
 
+TEST(ViewInAnotherProcess, SaysThatNoServerIsHeard) {
+  ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
+  const test_support::ProgramResult result =
+      test_support::glissade({"view", "--lcm", kViewUrl, "--port", "0", "--seconds", "0.2"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_NE(result.standard_error.find("no server has been heard on HAPTIC_STATE at " + std::string(kViewUrl) +
+                                       "; start one, such as: glissade demo --lcm '" + kViewUrl + "'\n"),
+            std::string::npos)
+      << result.standard_error;
+}
+
 TEST(ViewInAnotherProcess, SaysWhenTheServerHasAnotherScene) {
   ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
   const test_support::TemporaryFolder folder;
