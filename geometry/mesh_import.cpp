@@ -33,14 +33,14 @@ const Format& format_of(const std::filesystem::path& path) {
   for (const Format& format : kFormats) {
     if (extension == format.extension) return format;
   }
-  reject(path, "The format '" + extension + "' is not known; known are .obj, .stl, .ply, .gltf and .glb");
+  reject(path, "the format '" + extension + "' is not known; known are .obj, .stl, .ply, .gltf and .glb");
 }
 
 void check_used_vertices(const std::filesystem::path& path, const TriangleMesh& mesh) {
   for (const Triangle& triangle : mesh.triangles) {
     for (const std::int32_t corner : triangle) {
       const std::optional<double> bad = bad_coordinate(mesh.vertices[static_cast<std::size_t>(corner)]);
-      if (bad) reject_coordinate(path, "After scaling", *bad);
+      if (bad) reject_coordinate(path, "after scaling", *bad);
     }
   }
 }
@@ -74,7 +74,7 @@ bool has_two_triangles_at_every_edge(const TriangleMesh& mesh) {
 TriangleSoup read_soup(const std::filesystem::path& path, double scale) {
   if (!std::isfinite(scale) || scale <= 0) {
     std::ostringstream message;
-    message << "The scale must be positive and finite, but is " << scale;
+    message << "the scale must be positive and finite, but is " << scale;
     reject(path, message.str());
   }
   MeshFile file(path);
@@ -100,7 +100,7 @@ ImportedMesh import_mesh(const std::filesystem::path& path, double scale) {
     result.mesh = weld(result.mesh);  // drops the vertices that only they used
   }
   if (result.mesh.triangles.empty()) {
-    reject(path, "None of its " + std::to_string(result.degenerate_triangles) + " triangles has an area");
+    reject(path, "none of its " + std::to_string(result.degenerate_triangles) + " triangles has an area");
   }
   return result;
 }

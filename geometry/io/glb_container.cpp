@@ -14,11 +14,11 @@ constexpr WarningKind kBytesAfterTheEnd{"byte after the end that the header name
 
 std::string glb_content(MeshFile& file, MeshWarnings& warnings) {
   const std::string header = file.beginning(20);
-  if (header.size() < 20) reject(file.path(), "A GLB file begins with 'glTF' and a header of 20 bytes");
-  if (base::number_at<std::uint32_t>(header, 4) != 2) reject(file.path(), "The version in the header is not 2");
+  if (header.size() < 20) reject(file.path(), "a GLB file begins with 'glTF' and a header of 20 bytes");
+  if (base::number_at<std::uint32_t>(header, 4) != 2) reject(file.path(), "the version in the header is not 2");
   const std::uint32_t length = base::number_at<std::uint32_t>(header, 8);
   if (length > file.size()) {
-    reject(file.path(), "The file is truncated: it has " + std::to_string(file.size()) + " bytes, its header says " +
+    reject(file.path(), "the file is truncated: it has " + std::to_string(file.size()) + " bytes, its header says " +
                             std::to_string(length));
   }
   if (length < file.size()) {
@@ -31,7 +31,7 @@ GlbChunks glb_chunks(const std::filesystem::path& path, std::string_view bytes) 
   constexpr std::size_t kPadding = 3;  // some programs do not count it as part of the last chunk
   GlbChunks result;
   for (std::size_t begin = 12; begin + kPadding < bytes.size();) {
-    const std::string where = "The chunk at byte " + std::to_string(begin);
+    const std::string where = "the chunk at byte " + std::to_string(begin);
     if (bytes.size() - begin < 8) reject(path, where + " is truncated");
     const std::uint32_t size = base::number_at<std::uint32_t>(bytes, begin);
     const std::string_view kind = bytes.substr(begin + 4, 4);

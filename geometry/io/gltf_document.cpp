@@ -19,16 +19,16 @@ json parsed_gltf(const std::filesystem::path& path, std::string_view text) {
   const auto check_depth = [&](int depth, json::parse_event_t event, const json&) {
     const bool goes_deeper = event == json::parse_event_t::array_start || event == json::parse_event_t::object_start;
     if (goes_deeper && depth >= kDeepestNesting) {
-      reject(path, "Its JSON is nested more than " + std::to_string(kDeepestNesting) + " deep");
+      reject(path, "its JSON is nested more than " + std::to_string(kDeepestNesting) + " deep");
     }
     return true;
   };
   try {
     return json::parse(text, check_depth);
   } catch (const json::parse_error& error) {
-    reject(path, "This is not JSON, or truncated: byte " + std::to_string(error.byte) + " makes no sense");
+    reject(path, "this is not JSON, or truncated: byte " + std::to_string(error.byte) + " makes no sense");
   } catch (const json::out_of_range&) {
-    reject(path, "A number in its JSON is beyond every double");
+    reject(path, "a number in its JSON is beyond every double");
   }
 }
 

@@ -61,7 +61,7 @@ void check_required_extensions(GltfDocument& document) {
     const auto name = extension.get<std::string>();
     if (name == kGltfQuantization || name == kGltfInstancing) continue;
     if (!holds_no_geometry(name)) {
-      reject(document.path(), "The required extension '" + name + "' is not supported");
+      reject(document.path(), "the required extension '" + name + "' is not supported");
     }
     document.warnings().add(kRequired, one_line("'" + name + "'"));
   }

@@ -45,13 +45,13 @@ class GltfReader {
 
   TriangleMesh read() {
     check_extensions(document_);
-    if (document_.size("meshes") == 0) reject(document_.path(), "The file has no meshes");
+    if (document_.size("meshes") == 0) reject(document_.path(), "the file has no meshes");
     for (const std::size_t node : nodes_.of_scene()) {
       place_mesh_of(node);
     }
     meshes_.warn_of_unread();
     if (mesh_Scene_.triangles.empty()) {
-      std::string message = "The scene has no triangles.";
+      std::string message = "the scene has no triangles.";
       for (const std::string& warning : document_.warnings().sentences())
         message += " " + warning;
       reject(document_.path(), message);
@@ -136,7 +136,7 @@ TriangleSoup read_gltf(MeshFile& file) {
     const std::string what = error.what();  // begins with "[json.exception.type_error.302] "
     const std::size_t end = what.find("] ");
     reject(file.path(),
-           "An entry is missing or of the wrong kind: " + what.substr(end == std::string::npos ? 0 : end + 2));
+           "an entry is missing or of the wrong kind: " + what.substr(end == std::string::npos ? 0 : end + 2));
   }
 }
 

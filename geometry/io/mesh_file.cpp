@@ -13,21 +13,21 @@ MeshFile::MeshFile(const std::filesystem::path& path) : path_(path) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) throw std::invalid_argument(path.string() + ": there is no such file");
-  if (std::filesystem::is_directory(status)) reject(path, "This is a folder, not a file");
-  if (!std::filesystem::is_regular_file(status)) reject(path, "This is not a regular file");
+  if (std::filesystem::is_directory(status)) reject(path, "this is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) reject(path, "this is not a regular file");
   size_ = std::filesystem::file_size(path, error);
-  if (error) reject(path, "The file cannot be read");
-  if (size_ == 0) reject(path, "The file is empty");
-  if (size_ > kMostBytes) reject(path, "The file is larger than 16 GiB, it has " + std::to_string(size_) + " bytes");
+  if (error) reject(path, "the file cannot be read");
+  if (size_ == 0) reject(path, "the file is empty");
+  if (size_ > kMostBytes) reject(path, "the file is larger than 16 GiB, it has " + std::to_string(size_) + " bytes");
   stream_.open(path, std::ios::binary);
-  if (!stream_.is_open()) reject(path, "The file cannot be read");
+  if (!stream_.is_open()) reject(path, "the file cannot be read");
 }
 
 std::string MeshFile::beginning(std::uint64_t length) {
   std::string bytes(std::min(length, size_), '\0');
   stream_.seekg(0);
   stream_.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!stream_) reject(path_, "The file cannot be read");
+  if (!stream_) reject(path_, "the file cannot be read");
   return bytes;
 }
 

@@ -78,7 +78,7 @@ class ObjReader {
     while (next_statement()) {
       if (!words_.empty() && !is_continuation_) read_statement();
     }
-    if (face_begins_.empty()) reject(path_, "The file has no faces of 3 corners or more");
+    if (face_begins_.empty()) reject(path_, "the file has no faces of 3 corners or more");
     if (largest_index_ >= std::ssize(soup_.mesh.vertices)) {
       reject(path_, "line " + std::to_string(line_of_largest_) + ": the face uses vertex " +
                         std::to_string(largest_index_ + 1) + ", but the file has " +

@@ -21,7 +21,7 @@ bool is_utf16(std::string_view bytes) {
 }
 
 void reject_utf16(const std::filesystem::path& path, std::string_view text) {
-  if (is_utf16(text)) reject(path, "The text is encoded in UTF-16; only ASCII and UTF-8 are read");
+  if (is_utf16(text)) reject(path, "the text is encoded in UTF-16; only ASCII and UTF-8 are read");
 }
 
 void reject_zero_bytes(const std::filesystem::path& path, std::string_view text) {

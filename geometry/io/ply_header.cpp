@@ -87,7 +87,7 @@ class PlyHeaderReader {
 
   [[noreturn]] void fail_without_end() const {
     if (bytes_.size() < kLongestHeader) fail("the file is truncated, 'end_header' is missing");
-    reject(path_, "The header does not end within its first " + std::to_string(kLongestHeader) + " bytes");
+    reject(path_, "the header does not end within its first " + std::to_string(kLongestHeader) + " bytes");
   }
 
   void read_format() {
@@ -131,15 +131,15 @@ class PlyHeaderReader {
       }
     }
     std::sort(axes.begin(), axes.end());
-    if (axes != "xyz") reject(path_, "The header must give the element vertex the properties x, y and z, once each");
+    if (axes != "xyz") reject(path_, "the header must give the element vertex the properties x, y and z, once each");
     const bool has_surface = std::any_of(header_.elements.begin(), header_.elements.end(),
                                          [](const PlyElement& element) { return has_corners(element); });
-    if (!has_surface) reject(path_, "The file has no faces: the header names neither an element face nor tristrips");
+    if (!has_surface) reject(path_, "the file has no faces: the header names neither an element face nor tristrips");
     for (const PlyElement& element : header_.elements) {
       const auto lists = std::count_if(element.properties.begin(), element.properties.end(),
                                        [](const PlyProperty& property) { return property.is_corner_list(); });
       if (has_corners(element) && lists != 1) {
-        reject(path_, "The header must give the element " + element.name + " one list vertex_indices or vertex_index");
+        reject(path_, "the header must give the element " + element.name + " one list vertex_indices or vertex_index");
       }
     }
   }
@@ -211,7 +211,7 @@ void check_ply_size(const MeshFile& file, const PlyHeader& header) {
   }
   constexpr double kMostBlanks = 4096;  // which some programs write after the numbers
   if (body > taken.most + kMostBlanks) {
-    reject(file.path(), "The file is longer than its header says: " + whole(body) +
+    reject(file.path(), "the file is longer than its header says: " + whole(body) +
                             " bytes follow the header, but at most " + whole(taken.most) + " should");
   }
 }

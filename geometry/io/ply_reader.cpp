@@ -68,7 +68,7 @@ class PlyBodyReader {
   void expect_end() {
     const std::string_view rest = bytes_.substr(offset_);
     if (byte_order_ && rest.find_first_not_of(" \t\r\n") != std::string_view::npos) {
-      reject(path_, "The file is longer than its header says: " + std::to_string(rest.size()) +
+      reject(path_, "the file is longer than its header says: " + std::to_string(rest.size()) +
                         " bytes follow the last element");
     }
     if (!byte_order_ && has_word()) {
@@ -160,7 +160,7 @@ class PlyReader {
       }
     }
     body_.expect_end();
-    if (face_corners_.empty()) reject(path_, "The file has no faces of 3 corners or more");
+    if (face_corners_.empty()) reject(path_, "the file has no faces of 3 corners or more");
     add_faces();
     soup_.warnings = warnings_.sentences();
     return std::move(soup_);

@@ -79,7 +79,7 @@ void add_polygon(const MeshFile& file, std::span<const std::int32_t> corners, Tr
   constexpr std::size_t kMostTriangles = std::numeric_limits<std::int32_t>::max();
   std::vector<Triangle>& triangles = soup.mesh.triangles;
   if (triangles.size() + corners.size() - 2 > kMostTriangles) {
-    reject(file.path(), "The file has more than " + std::to_string(kMostTriangles) + " triangles");
+    reject(file.path(), "the file has more than " + std::to_string(kMostTriangles) + " triangles");
   }
   if (corners.size() == 3) {
     triangles.push_back({corners[0], corners[1], corners[2]});

@@ -72,16 +72,16 @@ void check_binary_size(const MeshFile& file, std::string_view beginning) {
   const std::string size = std::to_string(file.size()) + " bytes";
   if (beginning.size() < kHeaderSize) {
     reject(file.path(),
-           "The file is not text, and as a binary STL it is truncated: it has " + size + ", the header alone has 84");
+           "the file is not text, and as a binary STL it is truncated: it has " + size + ", the header alone has 84");
   }
   const std::uint32_t count = count_in_header(beginning);
   const std::uint64_t room = (file.size() - kHeaderSize) / kTriangleSize;
   const std::string promise = "its header says " + std::to_string(count) + " triangles, which take " +
                               std::to_string(binary_size(count)) + " bytes, but it has " + size + ", enough for " +
                               std::to_string(room);
-  if (room < count) reject(file.path(), "The file is not text, and as a binary STL it is truncated: " + promise);
-  if (room > count) reject(file.path(), "The file is too long for a binary STL: " + promise);
-  if (count == 0) reject(file.path(), "The file has no triangles");
+  if (room < count) reject(file.path(), "the file is not text, and as a binary STL it is truncated: " + promise);
+  if (room > count) reject(file.path(), "the file is too long for a binary STL: " + promise);
+  if (count == 0) reject(file.path(), "the file has no triangles");
 }
 
 TriangleSoup read_binary(const MeshFile& file, std::string_view bytes) {
@@ -121,7 +121,7 @@ class TextStlReader {
     while (words_.has_word()) {
       read_statement();
     }
-    if (soup_.mesh.triangles.empty()) reject(path_, "The file has no triangles");
+    if (soup_.mesh.triangles.empty()) reject(path_, "the file has no triangles");
     if (is_in_solid_) warnings_.add(kNoEnd, where());
     soup_.warnings = warnings_.sentences();
     return std::move(soup_);

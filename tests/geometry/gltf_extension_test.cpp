@@ -39,7 +39,7 @@ TEST_F(GltfExtension, RequiredOnesThatMayHoldGeometryAreRefused) {
   for (const char* name : {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "CESIUM_RTC", "ACME_anything"}) {
     GltfWriter file = placed_triangle();
     file.root["extensionsRequired"] = {name};
-    EXPECT_THAT(error(file), HasSubstr("The required extension '" + std::string(name) + "' is not supported"));
+    EXPECT_THAT(error(file), HasSubstr("the required extension '" + std::string(name) + "' is not supported"));
   }
 }
 

@@ -76,7 +76,7 @@ TEST_F(GltfScene, PrimitivesWithoutTrianglesAreToldOf) {
                           "1 primitive without the attribute POSITION is left out (meshes[0].primitives[4]).",
                           "1 primitive without corners is left out (meshes[0].primitives[5])."));
   primitives.erase(0);
-  EXPECT_THAT(error(file), HasSubstr("The scene has no triangles. 3 primitives of points or lines are left out"));
+  EXPECT_THAT(error(file), HasSubstr("the scene has no triangles. 3 primitives of points or lines are left out"));
 }
 
 TEST_F(GltfScene, AMirroredNodeKeepsTheFrontOfTriangles) {

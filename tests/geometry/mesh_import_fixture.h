@@ -64,6 +64,8 @@ class MeshImport : public testing::Test {
     } catch (const std::invalid_argument& error) {
       EXPECT_THAT(error.what(), testing::HasSubstr(path.string()));
       EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << "one line only";
+      EXPECT_THAT(error.what(), testing::Not(testing::StartsWith(path.string() + ": The")))
+          << "what follows a file's name begins with a small letter";
       return error.what();
     }
     ADD_FAILURE() << path << " was imported";
