@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include <glissade/geometry/triangle_mesh.h>
 #include <glissade/geometry/triangle_pair.h>
 
+#include "io/format_guess.h"
 #include "io/mesh_readers.h"
 
 namespace glissade::geometry {
@@ -20,11 +23,15 @@ namespace {
 
 struct Format {
   const char* extension;
+  const char* name;
   TriangleSoup (*read)(MeshFile& file);
 };
 
-constexpr std::array<Format, 5> kFormats{
-    {{".obj", &read_obj}, {".stl", &read_stl}, {".ply", &read_ply}, {".gltf", &read_gltf}, {".glb", &read_gltf}}};
+constexpr std::array<Format, 5> kFormats{{{".obj", "OBJ", &read_obj},
+                                          {".stl", "STL", &read_stl},
+                                          {".ply", "PLY", &read_ply},
+                                          {".gltf", "glTF", &read_gltf},
+                                          {".glb", "glTF", &read_gltf}}};
 
 const Format& format_of(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
@@ -70,6 +77,20 @@ bool has_two_triangles_at_every_edge(const TriangleMesh& mesh) {
   return true;
 }
 
+/// Reads the file as its name says. The message of an error says if the content looks like another format.
+TriangleSoup read_as_named(MeshFile& file) {
+  const Format& format = format_of(file.path());
+  try {
+    return format.read(file);
+  } catch (const std::invalid_argument& error) {
+    constexpr std::uint64_t kBeginning = 4096;
+    const std::string_view guess = format_guess(file.beginning(kBeginning), file.size());
+    if (guess.empty() || guess == format.name) throw;
+    throw std::invalid_argument(std::string(error.what()) + " By its name it is " + format.name +
+                                ", by its content it seems to be " + std::string(guess) + ".");
+  }
+}
+
 /// What the file has, in metres.
 TriangleSoup read_soup(const std::filesystem::path& path, double scale) {
   if (!std::isfinite(scale) || scale <= 0) {
@@ -78,7 +99,7 @@ TriangleSoup read_soup(const std::filesystem::path& path, double scale) {
     reject(path, message.str());
   }
   MeshFile file(path);
-  TriangleSoup soup = format_of(path).read(file);
+  TriangleSoup soup = read_as_named(file);
   for (Eigen::Vector3d& vertex : soup.mesh.vertices) {
     vertex *= scale;
   }

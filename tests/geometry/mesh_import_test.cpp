@@ -160,6 +160,22 @@ TEST_F(MeshImport, UnreadableFilesAreErrors) {
   }
 }
 
+TEST_F(MeshImport, AnErrorNamesTheFormatOfAMisnamedFile) {
+  const auto expect_guess = [&](const std::string& name, const std::string& content, const std::string& formats) {
+    EXPECT_THAT(error_of(name, content), testing::EndsWith(formats)) << name;
+  };
+  expect_guess("obj.stl", kObj, " By its name it is STL, by its content it seems to be OBJ.");
+  expect_guess("obj.ply", "# a comment\n" + kObj, "PLY, by its content it seems to be OBJ.");
+  expect_guess("obj.glb", kByteOrderMark + with_crlf(kObj), "glTF, by its content it seems to be OBJ.");
+  expect_guess("text_stl.obj", kAsciiStl, "OBJ, by its content it seems to be STL.");
+  expect_guess("binary_stl.obj", binary_stl("made by a test"), "OBJ, by its content it seems to be STL.");
+  expect_guess("ply.stl", kAsciiPly, "STL, by its content it seems to be PLY.");
+  expect_guess("gltf.obj", gltf(R"({"byteLength":72,"uri":"tetrahedron%20data.bin"})"), "seems to be glTF.");
+  expect_guess("glb.ply", tetrahedron_glb(), "PLY, by its content it seems to be glTF.");
+  EXPECT_THAT(error_of("cut_off.obj", "v 0 0 0\n"), testing::Not(testing::HasSubstr("seems to be")));
+  EXPECT_THAT(error_of("noise.obj", "anything"), testing::Not(testing::HasSubstr("seems to be")));
+}
+
 TEST_F(MeshImport, UnweldedImportKeepsAllVerticesAndTriangles) {
   const std::string text = "v 7 7 7\nv 0 0 0\nv 1 0 0\nv 0 -0.0 1\nv 1 0 0\nf 4 2 3\nf 2 2 5\nrock 1\n";
   const ImportedMesh raw = import_unwelded_mesh(folder_.write("raw.obj", text), 2.0);
