@@ -1,3 +1,4 @@
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -6,6 +7,8 @@
 
 #include <glissade/apps/run/run_status.h>
 #include <glissade/apps/run/run_watch.h>
+#include <glissade/apps/text.h>
+#include <glissade/files/text_file.h>
 
 namespace glissade::apps {
 namespace {
@@ -127,6 +130,36 @@ TEST_F(Watch, RateIsMeasuredOverTheLastTicks) {
   run(milliseconds(100));
   EXPECT_THAT(status_, HasSubstr(" 500 Hz"));
   EXPECT_THAT(watch_.news(7).status, HasSubstr(" 0 Hz")) << "a loop that halts";
+}
+
+/// A demonstration with the events that the README shows.
+TEST(RunWatch, PrintsWhatTheReadmeShows) {
+  RunWatch watch({"window_motor"}, {{1, 0}}, 10.0);
+  devices::HapticState state;
+  devices::HapticHandState& hand = state.hands[0];
+  state.hand_count = 1;
+  hand.part = 0;
+  hand.force_W = {0.0, 0.0, 1.2};
+  state.parts[0].state = devices::PartState::kSliding;
+  state.contact_set_age = milliseconds(1);
+  std::string lines;
+  std::string status;
+  for (milliseconds time(0); time <= milliseconds(5900); time += milliseconds(1)) {
+    state.time = std::chrono::hours(1) + time;
+    state.sequence = time.count() + 1;
+    hand.reasons.is_state_old = time >= milliseconds(5298) && time < milliseconds(5304);
+    hand.state_age = milliseconds(3);
+    hand.glove_reasons.is_command_old = time >= milliseconds(5304) && time < milliseconds(5337);
+    hand.command_age = milliseconds(8);
+    watch.note(state);
+    if (time.count() % 100 != 0) continue;
+    const RunWatch::News news = watch.news(0);
+    for (const std::string& event : news.events)
+      lines += "glissade demo: " + event + '\n';
+    status = news.status;
+  }
+  const std::string readme = read_text_file(std::string(GLISSADE_DOCS) + "/../README.md");
+  EXPECT_THAT(readme, HasSubstr("```\n" + lines + status + "\n```")) << lines << status;
 }
 
 TEST(RunStatus, SaysWhyThereIsNoForce) {
