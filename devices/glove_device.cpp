@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include <glissade/devices/glove_device.h>
+
+#include "lcm/bad_field.h"
 
 namespace glissade::devices {
 
@@ -23,10 +27,14 @@ LimitReasons limit_reasons_from_bits(std::int32_t bits) noexcept {
 }
 
 void validate(const DeviceDescriptor& descriptor) {
-  const auto refuse = [&descriptor](std::string_view field, std::string_view rule) {
-    throw std::invalid_argument("Device '" + descriptor.name + "': " + std::string(field) + " " + std::string(rule) +
-                                ".");
-  };
+  const std::optional<BadField> bad = first_bad_field(descriptor);
+  if (!bad) return;
+  throw std::invalid_argument("Device '" + descriptor.name + "': " + std::string(bad->name) + " " +
+                              std::string(bad->rule) + ".");
+}
+
+std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noexcept {
+  const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
   const std::pair<std::string_view, double> limits[] = {
       {"max_force", descriptor.max_force},
       {"max_torque", descriptor.max_torque},
@@ -50,26 +58,30 @@ void validate(const DeviceDescriptor& descriptor) {
       {"max_turn_rate", descriptor.max_turn_rate},
       {"workspace_radius", descriptor.workspace_radius}};
   for (const auto& [field, value] : limits) {
-    if (!std::isfinite(value) || value < 0.0) refuse(field, "must be finite and not negative");
+    if (!std::isfinite(value) || value < 0.0) return BadField{field, "must be finite and not negative", value};
   }
   // A sender that leaves these fields at zero would never feel a force.
-  if (descriptor.max_speed == 0.0) refuse("max_speed", "must be greater than 0");
-  if (descriptor.max_turn_rate == 0.0) refuse("max_turn_rate", "must be greater than 0");
-  if (descriptor.workspace_radius == 0.0) refuse("workspace_radius", "must be greater than 0");
+  if (descriptor.max_speed == 0.0) return BadField{"max_speed", "must be greater than 0", 0.0};
+  if (descriptor.max_turn_rate == 0.0) return BadField{"max_turn_rate", "must be greater than 0", 0.0};
+  if (descriptor.workspace_radius == 0.0) return BadField{"workspace_radius", "must be greater than 0", 0.0};
   constexpr double kFastest_Hz = 1e5;
   if (!(descriptor.update_rate >= 1.0 && descriptor.update_rate <= kFastest_Hz))
-    refuse("update_rate", "must lie between 1 and 100000 Hz");
-  if (descriptor.frozen < std::chrono::nanoseconds(0)) refuse("frozen", "must not be negative");
-  if (descriptor.delay < std::chrono::nanoseconds(0)) refuse("delay", "must not be negative");
-  if (descriptor.delay > std::chrono::seconds(1)) refuse("delay", "must not be longer than a second");
+    return BadField{"update_rate", "must lie between 1 and 100000 Hz", descriptor.update_rate};
+  if (descriptor.frozen < std::chrono::nanoseconds(0))
+    return BadField{"frozen", "must not be negative", seconds(descriptor.frozen)};
+  if (descriptor.delay < std::chrono::nanoseconds(0))
+    return BadField{"delay", "must not be negative", seconds(descriptor.delay)};
+  if (descriptor.delay > std::chrono::seconds(1))
+    return BadField{"delay", "must not be longer than a second", seconds(descriptor.delay)};
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];
     const bool is_absent = lower == 0.0 && upper == 0.0;
     if (!std::isfinite(lower) || !std::isfinite(upper) || (lower >= upper && !is_absent)) {
-      refuse(hands::kJointNames[i], "needs a finite lower limit below a finite upper limit");
+      return BadField{hands::kJointNames[i], "needs a finite lower limit below a finite upper limit", lower};
     }
   }
+  return std::nullopt;
 }
 
 double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,

@@ -16,6 +16,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace glissade::devices {
@@ -91,6 +92,15 @@ class LcmBus::Subscription {
   std::int64_t id_;
 };
 
+/// A field of a message for which the message was rejected.
+struct RefusedField {
+  std::string_view name{};       ///< as in the message's type, or in `DeviceDescriptor`; empty: no field
+  int index = -1;                ///< in an array; −1: the field is none
+  double value = 0.0;            ///< in the message
+  std::optional<double> wanted;  ///< the only value that is allowed, if there is only one
+  bool is_norm = false;          ///< whether `value` is the norm of the array
+};
+
 /// Numbers of messages that one receiver has accepted, rejected (by reason) and missed so far.
 struct LinkStatistics {
   std::uint64_t accepted = 0;
@@ -103,6 +113,10 @@ struct LinkStatistics {
   std::uint64_t other_sender = 0;     ///< messages of a sender that does not hold the lease
   std::uint64_t out_of_sequence = 0;  ///< messages whose sequence number does not rise, or rises too fast
   std::uint64_t lost = 0;             ///< sequence numbers that are missing between accepted messages
+  RefusedField first_wrong_size{};    ///< of the first message of each of these kinds
+  RefusedField first_wrong_version{};
+  RefusedField first_not_finite{};
+  RefusedField first_out_of_range{};
 
   std::uint64_t rejected() const noexcept {
     return wrong_size + undecodable + wrong_version + not_finite + out_of_range + other_receiver + other_sender +
@@ -110,7 +124,8 @@ struct LinkStatistics {
   }
 };
 
-/// The defects in the contents of rejected messages, such as "a number is not finite".
+/// The defects in the contents of rejected messages, each with the field of the first one, such as "a number is not
+/// finite: position_WH_m[1] is nan".
 std::vector<std::string> refusals_of(const LinkStatistics& link);
 
 }  // namespace glissade::devices

@@ -18,9 +18,9 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
   subscription_ = bus_->subscribe(kGloveStateChannel, [this](std::span<const std::uint8_t> message) {
     StateHeader header;
     GloveState state;
-    MessageError error = decode(message, header, state);
-    if (error == MessageError::kNone && header.device != device_) error = MessageError::kOtherReceiver;
-    if (!monitor_->admit(error, {header.device, header.session, state.sequence}, clock_.now())) return;
+    DecodeResult result = decode(message, header, state);
+    if (result == MessageError::kNone && header.device != device_) result = MessageError::kOtherReceiver;
+    if (!monitor_->admit(result, {header.device, header.session, state.sequence}, clock_.now())) return;
     state.obeys_another = header.leaseholder != 0 && header.leaseholder != session_;
     if (header.leaseholder != session_) {  // what the glove tells concerns the commands of another server, or none
       state.limits = {};

@@ -1,49 +1,51 @@
 #include "lcm/glove_messages.h"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include <glissade/lcmtypes/glove_command_t.hpp>
 #include <glissade/lcmtypes/glove_info_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
 
+#include "lcm/bad_field.h"
 #include "lcm/message_fields.h"
 
 namespace glissade::devices {
 namespace {
 
-MessageError check(const glove_state_t& message) noexcept {
+DecodeResult check(const glove_state_t& message) noexcept {
   FieldCheck fields;
-  fields.positive(message.session);
-  fields.not_negative(message.leaseholder);
-  fields.not_negative(message.sequence);
-  fields.time(message.time_ns);
-  fields.between(message.side, 0, glove_state_t::SIDE_RIGHT);
-  fields.between(message.enabled, 0, 1);
-  fields.not_negative(message.grip);
-  fields.magnitude(message.position_WH_m, kLargestPosition);
-  fields.unit_quaternion(message.orientation_WH_wxyz);
-  fields.magnitude(message.v_WH_m_per_s, kLargestVelocity);
-  fields.magnitude(message.w_WH_rad_per_s, kLargestAngularVelocity);
-  fields.magnitude(message.joint_angles_rad, kLargestAngle);
-  fields.time(message.link_delay_ns);
-  fields.magnitude(message.energy_J, kLargestEnergy);
-  fields.magnitude(message.taken_J, kLargestEnergy);
+  fields.positive("session", message.session);
+  fields.not_negative("leaseholder", message.leaseholder);
+  fields.not_negative("sequence", message.sequence);
+  fields.time("time_ns", message.time_ns);
+  fields.between("side", message.side, 0, glove_state_t::SIDE_RIGHT);
+  fields.between("enabled", message.enabled, 0, 1);
+  fields.not_negative("grip", message.grip);
+  fields.magnitude("position_WH_m", message.position_WH_m, kLargestPosition);
+  fields.unit_quaternion("orientation_WH_wxyz", message.orientation_WH_wxyz);
+  fields.magnitude("v_WH_m_per_s", message.v_WH_m_per_s, kLargestVelocity);
+  fields.magnitude("w_WH_rad_per_s", message.w_WH_rad_per_s, kLargestAngularVelocity);
+  fields.magnitude("joint_angles_rad", message.joint_angles_rad, kLargestAngle);
+  fields.time("link_delay_ns", message.link_delay_ns);
+  fields.magnitude("energy_J", message.energy_J, kLargestEnergy);
+  fields.magnitude("taken_J", message.taken_J, kLargestEnergy);
   return fields.result();
 }
 
-MessageError check(const glove_command_t& message) noexcept {
+DecodeResult check(const glove_command_t& message) noexcept {
   FieldCheck fields;
-  fields.not_negative(message.glove_session);
-  fields.positive(message.session);
-  fields.not_negative(message.sequence);
-  fields.not_negative(message.state_sequence);
-  fields.time(message.state_time_ns);
-  fields.time(message.time_ns);
-  fields.magnitude(message.force_H_W_N, kLargestForce);
-  fields.magnitude(message.torque_H_W_Nm, kLargestTorque);
-  fields.magnitude(message.joint_torques_Nm, kLargestTorque);
-  fields.magnitude(message.supply_J, kLargestEnergy);
+  fields.not_negative("glove_session", message.glove_session);
+  fields.positive("session", message.session);
+  fields.not_negative("sequence", message.sequence);
+  fields.not_negative("state_sequence", message.state_sequence);
+  fields.time("state_time_ns", message.state_time_ns);
+  fields.time("time_ns", message.time_ns);
+  fields.magnitude("force_H_W_N", message.force_H_W_N, kLargestForce);
+  fields.magnitude("torque_H_W_Nm", message.torque_H_W_Nm, kLargestTorque);
+  fields.magnitude("joint_torques_Nm", message.joint_torques_Nm, kLargestTorque);
+  fields.magnitude("supply_J", message.supply_J, kLargestEnergy);
   return fields.result();
 }
 
@@ -75,15 +77,6 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     use(message.joint_lower_rad[i], descriptor.joint_lower[i]);
     use(message.joint_upper_rad[i], descriptor.joint_upper[i]);
-  }
-}
-
-bool is_valid(const DeviceDescriptor& descriptor) noexcept {
-  try {
-    validate(descriptor);
-    return true;
-  } catch (const std::exception&) {
-    return false;
   }
 }
 
@@ -144,22 +137,23 @@ std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand
   return to_bytes(message);
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept {
+DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept {
   glove_info_t message{};
-  const MessageError error = from_bytes(bytes, message);
-  if (error != MessageError::kNone) return error;
-  if (message.version != glove_info_t::VERSION) return MessageError::kWrongVersion;
+  const DecodeResult whole = from_bytes(bytes, message);
+  if (whole != MessageError::kNone) return whole;
   FieldCheck fields;
-  fields.positive(message.session);
-  fields.time(message.frozen_ns);
-  fields.time(message.delay_ns);
-  fields.between(message.side, 0, glove_state_t::SIDE_RIGHT);
-  fields.between(message.name[std::size(message.name) - 1], 0, 0);
+  fields.positive("session", message.session);
+  fields.time("frozen_ns", message.frozen_ns);
+  fields.time("delay_ns", message.delay_ns);
+  fields.between("side", message.side, 0, glove_state_t::SIDE_RIGHT);
+  fields.between("name", message.name[std::size(message.name) - 1], 0, 0);
   DeviceDescriptor descriptor;
   for_each_limit(message, descriptor, [](double sent, double& value) { value = sent; });
   descriptor.frozen = std::chrono::nanoseconds(message.frozen_ns);
   descriptor.delay = std::chrono::nanoseconds(message.delay_ns);
-  if (fields.result() != MessageError::kNone || !is_valid(descriptor)) return MessageError::kOutOfRange;
+  if (fields.result() != MessageError::kNone) return fields.result();
+  if (const std::optional<BadField> bad = first_bad_field(descriptor))
+    return {MessageError::kOutOfRange, {.name = bad->name, .value = bad->value}};
   descriptor.name = reinterpret_cast<const char*>(message.name);
   const auto is_control = [](char c) { return static_cast<unsigned char>(c) < ' ' || c == '\x7f'; };
   std::replace_if(descriptor.name.begin(), descriptor.name.end(), is_control, '?');
@@ -170,13 +164,11 @@ MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   return MessageError::kNone;
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept {
+DecodeResult decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept {
   glove_state_t message{};
-  MessageError error = from_bytes(bytes, message);
-  if (error == MessageError::kNone && message.version != decltype(message)::VERSION)
-    error = MessageError::kWrongVersion;
-  if (error == MessageError::kNone) error = check(message);
-  if (error != MessageError::kNone) return error;
+  DecodeResult result = from_bytes(bytes, message);
+  if (result == MessageError::kNone) result = check(message);
+  if (result != MessageError::kNone) return result;
   header = {message.device, message.session, message.leaseholder, static_cast<hands::HandSide>(message.side)};
   state.is_enabled = message.enabled != 0;
   state.grip = message.grip;
@@ -194,13 +186,11 @@ MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, Gl
   return MessageError::kNone;
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept {
+DecodeResult decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept {
   glove_command_t message{};
-  MessageError error = from_bytes(bytes, message);
-  if (error == MessageError::kNone && message.version != decltype(message)::VERSION)
-    error = MessageError::kWrongVersion;
-  if (error == MessageError::kNone) error = check(message);
-  if (error != MessageError::kNone) return error;
+  DecodeResult result = from_bytes(bytes, message);
+  if (result == MessageError::kNone) result = check(message);
+  if (result != MessageError::kNone) return result;
   header = {message.device, message.glove_session, message.session};
   command.state_time = std::chrono::nanoseconds(message.state_time_ns);
   command.session = message.session;

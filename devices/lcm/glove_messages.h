@@ -39,8 +39,8 @@ std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand
 
 /// Decodes and checks a message. With any result other than kNone, the output is unchanged. Never throws, for any
 /// bytes. kOutOfRange: also for a descriptor that `validate` refuses.
-MessageError decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept;
-MessageError decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept;
-MessageError decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept;
+DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexcept;
+DecodeResult decode(std::span<const std::uint8_t> bytes, StateHeader& header, GloveState& state) noexcept;
+DecodeResult decode(std::span<const std::uint8_t> bytes, CommandHeader& header, GloveCommand& command) noexcept;
 
 }  // namespace glissade::devices

@@ -14,8 +14,11 @@ namespace {
 /// Anyone may send any number.
 constexpr std::size_t kMostSenders = 64;
 
-std::string refused(const char* what, const char* channel, MessageError error) {
-  return std::string(what) + " on " + channel + " are refused: " + std::string(words_of(error));
+/// Adds a sentence about a refused message, if it is the first one of its kind.
+void note_refusal(std::set<std::string>& sentences, const std::string& what, const DecodeResult& result) {
+  const std::string kind = what + " are refused: " + std::string(words_of(result.error));
+  const auto next = sentences.lower_bound(kind);
+  if (next == sentences.end() || !next->starts_with(kind)) sentences.insert(what + " are refused: " + text_of(result));
 }
 
 }  // namespace
@@ -23,25 +26,25 @@ std::string refused(const char* what, const char* channel, MessageError error) {
 GloveSearch::GloveSearch(std::shared_ptr<LcmBus> bus) : bus_(checked_bus(std::move(bus), "The search for a glove")) {
   infos_ = bus_->subscribe(kGloveInfoChannel, [this](std::span<const std::uint8_t> message) {
     GloveInfo info;
-    const MessageError error = decode(message, info);
+    const DecodeResult result = decode(message, info);
     const std::lock_guard lock(mutex_);
-    if (error == MessageError::kNone) {
+    if (result == MessageError::kNone) {
       const std::int64_t device = info.device;
       found_.insert_or_assign(device, std::move(info));
       has_come_.notify_all();
     } else {
-      refusals_.insert(refused("announcements", kGloveInfoChannel, error));
+      note_refusal(refusals_, std::string("announcements on ") + kGloveInfoChannel, result);
     }
   });
   states_ = bus_->subscribe(kGloveStateChannel, [this](std::span<const std::uint8_t> message) {
     StateHeader header;
     GloveState state;
-    const MessageError error = decode(message, header, state);
+    const DecodeResult result = decode(message, header, state);
     const std::lock_guard lock(mutex_);
-    if (error == MessageError::kNone) {
+    if (result == MessageError::kNone) {
       if (senders_.size() < kMostSenders) senders_.insert(header.device);
     } else {
-      refusals_.insert(refused("states", kGloveStateChannel, error));
+      note_refusal(refusals_, std::string("states on ") + kGloveStateChannel, result);
     }
   });
 }

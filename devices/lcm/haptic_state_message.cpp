@@ -21,50 +21,50 @@ constexpr std::int32_t kAllSegments = (1 << 24) - 1;
 static_assert(haptic_hand_t::REASON_STOPPED == 1);
 static_assert(haptic_hand_t::REASON_ENERGY == 1 << (kLimitReasons.size() - 1));
 
-MessageError check(const haptic_state_t& message) noexcept {
+DecodeResult check(const haptic_state_t& message) noexcept {
   FieldCheck fields;
-  fields.not_negative(message.sequence);
-  fields.time(message.time_ns);
-  fields.time(message.contact_set_age_ns);
-  fields.between(message.part_count, 0, static_cast<std::int32_t>(kHapticParts));
-  fields.between(message.hand_count, 0, static_cast<std::int32_t>(kHapticHands));
-  fields.between(message.contact_count, 0, static_cast<std::int32_t>(kHapticContacts));
-  fields.between(message.patch_count, 0, static_cast<std::int32_t>(kHapticPatches));
-  fields.not_negative(message.patches_left_out);
-  fields.time(message.lateness_ns);
-  fields.time(message.last_duration_ns);
+  fields.not_negative("sequence", message.sequence);
+  fields.time("time_ns", message.time_ns);
+  fields.time("contact_set_age_ns", message.contact_set_age_ns);
+  fields.between("part_count", message.part_count, 0, static_cast<std::int32_t>(kHapticParts));
+  fields.between("hand_count", message.hand_count, 0, static_cast<std::int32_t>(kHapticHands));
+  fields.between("contact_count", message.contact_count, 0, static_cast<std::int32_t>(kHapticContacts));
+  fields.between("patch_count", message.patch_count, 0, static_cast<std::int32_t>(kHapticPatches));
+  fields.not_negative("patches_left_out", message.patches_left_out);
+  fields.time("lateness_ns", message.lateness_ns);
+  fields.time("last_duration_ns", message.last_duration_ns);
   for (const haptic_part_t& part : message.parts) {
-    fields.magnitude(part.position_WG_m, kLargestPosition);
-    fields.unit_quaternion(part.orientation_WG_wxyz);
-    fields.magnitude(part.position_WV_m, kLargestPosition);
-    fields.unit_quaternion(part.orientation_WV_wxyz);
-    fields.magnitude(part.p_Vref_m, kLargestPosition);
-    fields.not_negative(part.contact_count);
+    fields.magnitude("position_WG_m", part.position_WG_m, kLargestPosition);
+    fields.unit_quaternion("orientation_WG_wxyz", part.orientation_WG_wxyz);
+    fields.magnitude("position_WV_m", part.position_WV_m, kLargestPosition);
+    fields.unit_quaternion("orientation_WV_wxyz", part.orientation_WV_wxyz);
+    fields.magnitude("p_Vref_m", part.p_Vref_m, kLargestPosition);
+    fields.not_negative("contact_count", part.contact_count);
   }
   for (const haptic_hand_t& hand : message.hands) {
-    fields.between(hand.part, -1, static_cast<std::int32_t>(kHapticParts) - 1);
-    fields.magnitude(hand.force_W_N, kLargestForce);
-    fields.magnitude(hand.torque_V_W_Nm, kLargestTorque);
-    fields.magnitude(hand.contact_share, 1.0);
-    fields.magnitude(hand.energy_J, kLargestEnergy);
-    fields.magnitude(hand.glove_energy_J, kLargestEnergy);
-    fields.between(hand.touching, 0, kAllSegments);
-    fields.magnitude(hand.position_WH_m, kLargestPosition);
-    fields.unit_quaternion(hand.orientation_WH_wxyz);
-    fields.magnitude(hand.joint_angles_rad, kLargestAngle);
-    fields.magnitude(hand.joint_torques_Nm, kLargestTorque);
+    fields.between("part", hand.part, -1, static_cast<std::int32_t>(kHapticParts) - 1);
+    fields.magnitude("force_W_N", hand.force_W_N, kLargestForce);
+    fields.magnitude("torque_V_W_Nm", hand.torque_V_W_Nm, kLargestTorque);
+    fields.magnitude("contact_share", hand.contact_share, 1.0);
+    fields.magnitude("energy_J", hand.energy_J, kLargestEnergy);
+    fields.magnitude("glove_energy_J", hand.glove_energy_J, kLargestEnergy);
+    fields.between("touching", hand.touching, 0, kAllSegments);
+    fields.magnitude("position_WH_m", hand.position_WH_m, kLargestPosition);
+    fields.unit_quaternion("orientation_WH_wxyz", hand.orientation_WH_wxyz);
+    fields.magnitude("joint_angles_rad", hand.joint_angles_rad, kLargestAngle);
+    fields.magnitude("joint_torques_Nm", hand.joint_torques_Nm, kLargestTorque);
   }
   for (const haptic_contact_t& contact : message.contacts) {
-    fields.between(contact.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
-    fields.magnitude(contact.position_V_m, kLargestPosition);
-    fields.magnitude(contact.normal_W, kLargestNormal);
+    fields.between("part", contact.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
+    fields.magnitude("position_V_m", contact.position_V_m, kLargestPosition);
+    fields.magnitude("normal_W", contact.normal_W, kLargestNormal);
   }
   for (const haptic_patch_t& patch : message.patches) {
-    fields.between(patch.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
-    fields.not_negative(patch.contact_count);
-    fields.magnitude(patch.position_V_m, kLargestPosition);
-    fields.magnitude(patch.normal_W, kLargestNormal);
-    fields.magnitude(static_cast<double>(patch.extent_m), kLargestPosition);
+    fields.between("part", patch.part, 0, static_cast<std::int32_t>(kHapticParts) - 1);
+    fields.not_negative("contact_count", patch.contact_count);
+    fields.magnitude("position_V_m", patch.position_V_m, kLargestPosition);
+    fields.magnitude("normal_W", patch.normal_W, kLargestNormal);
+    fields.magnitude("extent_m", static_cast<double>(patch.extent_m), kLargestPosition);
   }
   return fields.result();
 }
@@ -200,13 +200,11 @@ std::vector<std::uint8_t> encode(const HapticState& state) {
   return to_bytes(message);
 }
 
-MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept {
+DecodeResult decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept {
   haptic_state_t message{};
-  MessageError error = from_bytes(bytes, message);
-  if (error == MessageError::kNone && message.version != decltype(message)::VERSION)
-    error = MessageError::kWrongVersion;
-  if (error == MessageError::kNone) error = check(message);
-  if (error != MessageError::kNone) return error;
+  DecodeResult result = from_bytes(bytes, message);
+  if (result == MessageError::kNone) result = check(message);
+  if (result != MessageError::kNone) return result;
   state.sequence = message.sequence;
   state.time = std::chrono::nanoseconds(message.time_ns);
   state.contact_set_age = std::chrono::nanoseconds(message.contact_set_age_ns);

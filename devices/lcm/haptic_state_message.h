@@ -19,6 +19,6 @@ std::vector<std::uint8_t> encode(const HapticState& state);
 /// Decodes and checks a message. With any result other than kNone, the output is unchanged. Never throws, for any
 /// bytes. A part state that this program does not know becomes `PartState::kUnknown`. This is no error: a viewer may be
 /// older than the simulation.
-MessageError decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;
+DecodeResult decode(std::span<const std::uint8_t> bytes, HapticState& state) noexcept;
 
 }  // namespace glissade::devices

@@ -24,10 +24,10 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
   subscription_ = bus_->subscribe(kGloveCommandChannel, [this](std::span<const std::uint8_t> message) {
     CommandHeader header;
     GloveCommand command;
-    MessageError error = decode(message, header, command);
+    DecodeResult result = decode(message, header, command);
     const bool is_for_us = header.device == options_.device && header.glove_session == session_;
-    if (error == MessageError::kNone && !is_for_us) error = MessageError::kOtherReceiver;
-    if (monitor_->admit(error, {header.device, header.session, command.sequence}, clock_.now())) {
+    if (result == MessageError::kNone && !is_for_us) result = MessageError::kOtherReceiver;
+    if (monitor_->admit(result, {header.device, header.session, command.sequence}, clock_.now())) {
       commands_.publish(command);
     }
   });

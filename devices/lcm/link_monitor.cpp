@@ -1,6 +1,8 @@
 #include "lcm/link_monitor.h"
 
 #include <algorithm>
+#include <array>
+#include <cstdio>
 #include <random>
 
 namespace glissade::devices {
@@ -19,20 +21,40 @@ std::string_view words_of(MessageError error) noexcept {
   }
 }
 
+std::string text_of(const DecodeResult& result) {
+  const RefusedField& field = result.field;
+  std::string text(words_of(result.error));
+  if (field.name.empty()) return text;
+  const auto number = [](double value) {
+    std::array<char, 32> digits{};
+    std::snprintf(digits.data(), digits.size(), "%.12g", value);
+    return std::string(digits.data());
+  };
+  text += (field.is_norm ? ": the norm of " : ": ") + std::string(field.name);
+  if (field.index >= 0) text += "[" + std::to_string(field.index) + "]";
+  return text + " is " + number(field.value) + (field.wanted ? ", not " + number(*field.wanted) : "");
+}
+
 std::vector<std::string> refusals_of(const LinkStatistics& link) {
   std::vector<std::string> reasons;
-  const auto add = [&](std::uint64_t count, MessageError error) {
-    if (count > 0) reasons.emplace_back(words_of(error));
+  const auto add = [&](std::uint64_t count, MessageError error, const RefusedField& first) {
+    if (count > 0) reasons.push_back(text_of({error, first}));
   };
-  add(link.wrong_size + link.undecodable, MessageError::kWrongSize);
-  add(link.wrong_version, MessageError::kWrongVersion);
-  add(link.not_finite, MessageError::kNotFinite);
-  add(link.out_of_range, MessageError::kOutOfRange);
+  add(link.wrong_size + link.undecodable, MessageError::kWrongSize, link.first_wrong_size);
+  add(link.wrong_version, MessageError::kWrongVersion, link.first_wrong_version);
+  add(link.not_finite, MessageError::kNotFinite, link.first_not_finite);
+  add(link.out_of_range, MessageError::kOutOfRange, link.first_out_of_range);
   return reasons;
 }
 
-bool LinkMonitor::admit(MessageError error, const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept {
-  if (error == MessageError::kNone) error = check(origin, now);
+bool LinkMonitor::admit(const DecodeResult& result, const MessageOrigin& origin,
+                        std::chrono::nanoseconds now) noexcept {
+  const MessageError error = result.error == MessageError::kNone ? check(origin, now) : result.error;
+  First& first = firsts_[static_cast<std::size_t>(error)];
+  if (!result.field.name.empty() && !first.is_known.load(std::memory_order_relaxed)) {
+    first.field = result.field;
+    first.is_known.store(true, std::memory_order_release);
+  }
   counts_[static_cast<std::size_t>(error)].fetch_add(1, std::memory_order_relaxed);
   if (error != MessageError::kNone) return false;
   // Nothing counts as lost before the first message of a session: the other end may have started long before.
@@ -84,6 +106,10 @@ LinkStatistics LinkMonitor::statistics() const noexcept {
   const auto count = [this](MessageError error) {
     return counts_[static_cast<std::size_t>(error)].load(std::memory_order_relaxed);
   };
+  const auto first = [this](MessageError error) {
+    const First& known = firsts_[static_cast<std::size_t>(error)];
+    return known.is_known.load(std::memory_order_acquire) ? known.field : RefusedField{};
+  };
   return {.accepted = count(MessageError::kNone),
           .wrong_size = count(MessageError::kWrongSize),
           .undecodable = count(MessageError::kUndecodable),
@@ -93,7 +119,11 @@ LinkStatistics LinkMonitor::statistics() const noexcept {
           .other_receiver = count(MessageError::kOtherReceiver),
           .other_sender = count(MessageError::kOtherSender),
           .out_of_sequence = count(MessageError::kOutOfSequence),
-          .lost = lost_.load(std::memory_order_relaxed)};
+          .lost = lost_.load(std::memory_order_relaxed),
+          .first_wrong_size = first(MessageError::kWrongSize),
+          .first_wrong_version = first(MessageError::kWrongVersion),
+          .first_not_finite = first(MessageError::kNotFinite),
+          .first_out_of_range = first(MessageError::kOutOfRange)};
 }
 
 std::int64_t random_session() {

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 #include <glissade/devices/lcm_bus.h>
@@ -25,8 +26,21 @@ enum class MessageError {
   kOutOfSequence
 };
 
+/// The outcome of decoding a message.
+struct DecodeResult {
+  MessageError error = MessageError::kNone;
+  RefusedField field{};  ///< with an error, the first field that is wrong; no name if none is known
+
+  DecodeResult() = default;
+  DecodeResult(MessageError kind) : error(kind) {}  // NOLINT(google-explicit-constructor): most errors have no field
+  DecodeResult(MessageError kind, const RefusedField& wrong) : error(kind), field(wrong) {}
+  operator MessageError() const noexcept { return error; }  // NOLINT(google-explicit-constructor)
+};
+
 /// The reason for refusing a message for its contents, such as "a number is not finite".
 std::string_view words_of(MessageError error) noexcept;
+/// The same with the field, such as "a number is not finite: position_WH_m[1] is nan".
+std::string text_of(const DecodeResult& result);
 
 /// Who sent a message, and its place among the messages of this sender.
 struct MessageOrigin {
@@ -56,8 +70,8 @@ class LinkMonitor {
   /// Before the first message: grants the lease to this sender at `now`.
   void grant(std::int64_t device, std::int64_t session, std::chrono::nanoseconds now) noexcept;
 
-  /// Counts a message that was decoded with `error` at `now`; returns whether it may be used.
-  bool admit(MessageError error, const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
+  /// Counts a message that was decoded with `result` at `now`; returns whether it may be used.
+  bool admit(const DecodeResult& result, const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
 
   /// Session of the sender that held the lease last; 0 before the first admitted message.
   std::int64_t session() const noexcept { return session_.load(std::memory_order_relaxed); }
@@ -71,6 +85,12 @@ class LinkMonitor {
  private:
   static constexpr std::size_t kErrors = 9;
 
+  /// Written once.
+  struct First {
+    RefusedField field;
+    std::atomic<bool> is_known{false};
+  };
+
   bool follows(std::int64_t sequence, std::chrono::nanoseconds silence) noexcept;
   MessageError check(const MessageOrigin& origin, std::chrono::nanoseconds now) noexcept;
 
@@ -82,6 +102,7 @@ class LinkMonitor {
   std::int64_t device_ = 0;
   std::atomic<std::int64_t> session_{0};
   std::array<std::atomic<std::uint64_t>, kErrors> counts_{};  ///< by MessageError
+  std::array<First, kErrors> firsts_{};                       ///< by MessageError
   std::atomic<std::uint64_t> lost_{0};
 };
 

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numbers>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -58,47 +59,60 @@ std::vector<std::uint8_t> to_bytes(const Message& message) {
 }
 
 template <typename Message>
-MessageError from_bytes(std::span<const std::uint8_t> bytes, Message& message) noexcept {
+DecodeResult from_bytes(std::span<const std::uint8_t> bytes, Message& message) noexcept {
   const int size = message.getEncodedSize();
-  if (bytes.size() != static_cast<std::size_t>(size)) return MessageError::kWrongSize;
-  return message.decode(bytes.data(), 0, size) == size ? MessageError::kNone : MessageError::kUndecodable;
+  if (bytes.size() != static_cast<std::size_t>(size)) {
+    return {MessageError::kWrongSize,
+            {.name = "the number of bytes", .value = static_cast<double>(bytes.size()), .wanted = size}};
+  }
+  if (message.decode(bytes.data(), 0, size) != size) return MessageError::kUndecodable;
+  constexpr auto kVersion = Message::VERSION;
+  if (message.version == kVersion) return MessageError::kNone;
+  return {MessageError::kWrongVersion,
+          {.name = "version", .value = static_cast<double>(message.version), .wanted = kVersion}};
 }
 
-/// Checks the fields of a message and keeps the most serious error.
+/// Checks the fields of a message, and keeps the first one that is not finite, or else the first one out of its range.
 class FieldCheck {
  public:
   template <typename Number, std::size_t N>
-  void magnitude(const Number (&values)[N], double largest) noexcept {
-    for (const Number number : values) {
-      const auto value = static_cast<double>(number);
-      is_finite_ = is_finite_ && std::isfinite(value);
-      is_in_range_ = is_in_range_ && std::abs(value) <= largest;
-    }
+  void magnitude(std::string_view name, const Number (&values)[N], double largest) noexcept {
+    for (std::size_t i = 0; i < N; ++i)
+      magnitude(name, static_cast<double>(values[i]), largest, static_cast<int>(i));
   }
-  void magnitude(double value, double largest) noexcept {
-    const double values[] = {value};
-    magnitude(values, largest);
+  void magnitude(std::string_view name, double value, double largest, int index = -1) noexcept {
+    if (std::abs(value) <= largest) return;
+    note(std::isfinite(value) ? out_of_range_ : not_finite_, {.name = name, .index = index, .value = value});
   }
-  void unit_quaternion(const double (&wxyz)[4]) noexcept {
-    magnitude(wxyz, 2.0);
+  void unit_quaternion(std::string_view name, const double (&wxyz)[4]) noexcept {
+    magnitude(name, wxyz, 2.0);
     const double norm = Eigen::Vector4d(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).norm();
-    is_in_range_ = is_in_range_ && std::abs(norm - 1.0) <= kQuaternionTolerance;
+    if (!(std::abs(norm - 1.0) <= kQuaternionTolerance))
+      note(out_of_range_, {.name = name, .value = norm, .wanted = 1.0, .is_norm = true});
   }
-  void not_negative(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value >= 0; }
-  void positive(std::int64_t value) noexcept { is_in_range_ = is_in_range_ && value > 0; }
-  void time(std::int64_t ns) noexcept { is_in_range_ = is_in_range_ && ns >= 0 && ns <= kLargestTime_ns; }
-  void between(std::int32_t value, std::int32_t least, std::int32_t largest) noexcept {
-    is_in_range_ = is_in_range_ && value >= least && value <= largest;
+  void not_negative(std::string_view name, std::int64_t value) noexcept { integer(name, value, value >= 0); }
+  void positive(std::string_view name, std::int64_t value) noexcept { integer(name, value, value > 0); }
+  void time(std::string_view name, std::int64_t ns) noexcept { integer(name, ns, ns >= 0 && ns <= kLargestTime_ns); }
+  void between(std::string_view name, std::int32_t value, std::int32_t least, std::int32_t largest) noexcept {
+    integer(name, value, value >= least && value <= largest);
   }
 
-  MessageError result() const noexcept {
-    if (!is_finite_) return MessageError::kNotFinite;
-    return is_in_range_ ? MessageError::kNone : MessageError::kOutOfRange;
+  DecodeResult result() const noexcept {
+    if (!not_finite_.name.empty()) return {MessageError::kNotFinite, not_finite_};
+    if (!out_of_range_.name.empty()) return {MessageError::kOutOfRange, out_of_range_};
+    return MessageError::kNone;
   }
 
  private:
-  bool is_finite_ = true;
-  bool is_in_range_ = true;
+  void integer(std::string_view name, std::int64_t value, bool is_in_range) noexcept {
+    if (!is_in_range) note(out_of_range_, {.name = name, .value = static_cast<double>(value)});
+  }
+  static void note(RefusedField& first, const RefusedField& field) noexcept {
+    if (first.name.empty()) first = field;
+  }
+
+  RefusedField not_finite_;
+  RefusedField out_of_range_;
 };
 
 }  // namespace glissade::devices

@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <string>
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "glove_link_fixture.h"
@@ -85,6 +87,36 @@ TEST_F(LcmLink, RefusesNumbersOutOfRange) {
     spoil(message);
     EXPECT_EQ(after(encoded(message)).out_of_range, ++refused);
   }
+}
+
+TEST_F(LcmLink, NamesTheFirstFieldOfEachKindOfRefusal) {
+  Bytes short_one = encoded(good_state(1));
+  short_one.resize(12);
+  after(short_one);
+  const auto spoil = [&](auto change) {
+    glove_state_t message = good_state(1);
+    change(message);
+    after(encoded(message));
+  };
+  spoil([](glove_state_t& m) { m.version = 7; });
+  spoil([](glove_state_t& m) { m.position_WH_m[1] = kNan; });
+  spoil([](glove_state_t& m) { m.orientation_WH_wxyz[0] = 1.5; });
+  spoil([](glove_state_t& m) { m.position_WH_m[0] = kInfinity; });  // a second one of its kind
+  spoil([](glove_state_t& m) { m.side = 3; });
+  const std::string size = std::to_string(encoded(good_state(1)).size());
+  EXPECT_THAT(refusals_of(glove.statistics()),
+              testing::ElementsAre(
+                  "they are not of the type that this program knows: the number of bytes is 12, not " + size,
+                  "they have another version of the type: version is 7, not " + std::to_string(good_state(1).version),
+                  "a number is not finite: position_WH_m[1] is nan",
+                  "a number is out of its range: the norm of orientation_WH_wxyz is 1.5, not 1"));
+}
+
+TEST_F(LcmLink, NamesAFieldOutOfItsRange) {
+  glove_state_t message = good_state(1);
+  message.side = 3;
+  after(encoded(message));
+  EXPECT_THAT(refusals_of(glove.statistics()), testing::ElementsAre("a number is out of its range: side is 3"));
 }
 
 TEST_F(LcmLink, NormalizesAQuaternionThatIsNearlyOne) {

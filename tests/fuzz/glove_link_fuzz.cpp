@@ -94,8 +94,8 @@ class Link {
   bool take_state(std::span<const std::uint8_t> message, nanoseconds now) {
     StateHeader header;
     GloveState state;
-    const MessageError error = decode(message, header, state);
-    if (!states_.admit(error, {header.device, header.session, state.sequence}, now)) return false;
+    const DecodeResult result = decode(message, header, state);
+    if (!states_.admit(result, {header.device, header.session, state.sequence}, now)) return false;
     state_ = state;
     return true;
   }
@@ -123,8 +123,8 @@ class Link {
   bool take_command(std::span<const std::uint8_t> message, nanoseconds now) {
     CommandHeader header;
     GloveCommand command;
-    const MessageError error = decode(message, header, command);
-    if (!commands_.admit(error, {header.device, header.session, command.sequence}, now)) return false;
+    const DecodeResult result = decode(message, header, command);
+    if (!commands_.admit(result, {header.device, header.session, command.sequence}, now)) return false;
     command_ = command;
     return true;
   }
