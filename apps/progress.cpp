@@ -2,6 +2,7 @@
 #include <iostream>
 #include <utility>
 
+#include <CLI/CLI.hpp>
 #include <unistd.h>
 
 #include <glissade/apps/progress.h>
@@ -16,6 +17,15 @@ constexpr std::chrono::milliseconds kRedrawPeriod{100};
 constexpr int kBarWidth = 40;
 
 }  // namespace
+
+bool& is_quiet() {
+  static bool quiet = false;
+  return quiet;
+}
+
+void add_quiet_option(CLI::App& command) {
+  command.add_flag("--quiet", is_quiet(), "Show no progress of long work");
+}
 
 ProgressBar::ProgressBar(std::string label, std::int64_t total, AmountText amount,
                          std::chrono::milliseconds line_period)
@@ -37,7 +47,7 @@ void ProgressBar::erase() {
 }
 
 void ProgressBar::update(std::int64_t done) {
-  if (std::chrono::steady_clock::now() < next_draw_) return;
+  if (is_quiet() || std::chrono::steady_clock::now() < next_draw_) return;
   if (on_terminal_) {
     draw(done);
   } else {

@@ -7,7 +7,16 @@
 #include <functional>
 #include <string>
 
+namespace CLI {
+class App;
+}
+
 namespace glissade::apps {
+
+/// Adds the flag --quiet, with which no progress is shown.
+void add_quiet_option(CLI::App& command);
+/// Whether --quiet was given.
+bool& is_quiet();
 
 /// The amount of work that is done, in words, such as "1.20 of 6.00 s".
 using AmountText = std::function<std::string(std::int64_t done, std::int64_t total)>;

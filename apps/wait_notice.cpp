@@ -2,6 +2,7 @@
 #include <system_error>
 #include <utility>
 
+#include <glissade/apps/progress.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/wait_notice.h>
@@ -12,7 +13,7 @@ WaitNotice::WaitNotice(std::string doing) {
   const auto wait = [this, doing = std::move(doing)] {
     std::unique_lock lock(mutex_);
     const bool is_short = ended_.wait_for(lock, std::chrono::seconds(2), [this] { return has_ended_; });
-    if (!is_short) say("glissade: " + one_line(doing) + " ...");
+    if (!is_short && !is_quiet()) say("glissade: " + one_line(doing) + " ...");
   };
   try {
     thread_ = std::thread(wait);

@@ -160,6 +160,7 @@ void add_collide_command(CLI::App& app, Command& chosen) {
   command->add_option("--out", options->out, "CSV file for the output, - for standard output")->capture_default_str();
   command->add_flag("--cache", options->cache, kCacheHelp);
   add_strict_option(*command);
+  add_quiet_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

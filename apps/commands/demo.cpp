@@ -16,6 +16,7 @@
 #include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
+#include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/apps/run/missed_goal.h>
@@ -204,6 +205,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
           "lag (distance from the visible part to the pose to which the hand pulls it), contacts and states")
       ->take_last();
   add_strict_option(*command);
+  add_quiet_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

@@ -343,6 +343,7 @@ void add_grasp_command(CLI::App& app, Command& chosen) {
                    "Folder for a page, index.html, with hands and objects in three dimensions, and plots")
       ->take_last();
   add_strict_option(*command);
+  add_quiet_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

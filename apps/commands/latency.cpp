@@ -81,6 +81,7 @@ void add_latency_command(CLI::App& app, Command& chosen) {
       "--report", options->report,
       "Folder for a page, index.html, with the figures, a histogram of each stage, and up to a second of "
       "the run in three dimensions");
+  add_quiet_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

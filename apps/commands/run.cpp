@@ -16,6 +16,7 @@
 #include <glissade/apps/files/hand_trajectory_file.h>
 #include <glissade/apps/files/scene_file.h>
 #include <glissade/apps/open_files.h>
+#include <glissade/apps/progress.h>
 #include <glissade/apps/record/dump_signal.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/lcm_option.h>
@@ -240,6 +241,7 @@ void add_options(CLI::App& command_line, RunOptions& options) {
       ->needs(fingers);
   add_sliding_options(command_line, options.choice);
   add_strict_option(command_line);
+  add_quiet_option(command_line);
   command_line
       .add_option("--seconds", options.seconds, "Duration in seconds from the first glove state; 0: until Ctrl-C")
       ->capture_default_str();

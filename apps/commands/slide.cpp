@@ -358,6 +358,7 @@ void add_slide_command(CLI::App& app, Command& chosen) {
       ->capture_default_str()
       ->check(not_negative());
   add_strict_option(*command);
+  add_quiet_option(*command);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

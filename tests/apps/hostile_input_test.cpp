@@ -83,7 +83,7 @@ TEST_F(HostileInput, UnwritableStandardOutputExitsWithCode1) {
                                                        {"collide", mesh, mesh, "--poses", poses},
                                                        slide(),
                                                        slide({"--summary", "-"}),
-                                                       {"demo", "--offline", "--seconds", "1"},
+                                                       {"demo", "--offline", "--seconds", "1", "--quiet"},
                                                        {"doctor"}};
   for (const std::vector<std::string>& arguments : commands) {
     for (const char* output : {"> /dev/full", ">&-", "<&- >&-"}) {

@@ -37,6 +37,15 @@ TEST(ProgressBar, WithoutATerminalPrintsALineInEveryPeriod) {
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "glissade: sliding: 10 %\nglissade: sliding: 20 %\n");
 }
 
+TEST(ProgressBar, PrintsNothingWhenQuiet) {
+  testing::internal::CaptureStderr();
+  is_quiet() = true;
+  ProgressBar progress("sliding", 200, {}, std::chrono::milliseconds(0));
+  progress.update(10);
+  is_quiet() = false;
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
 TEST(WaitNotice, OneLineIfTheWorkTakesLong) {
   testing::internal::CaptureStderr();
   { const WaitNotice notice("reading door.stl"); }
