@@ -56,7 +56,9 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
       {"max_mean_force", descriptor.max_mean_force},
       {"max_speed", descriptor.max_speed},
       {"max_turn_rate", descriptor.max_turn_rate},
-      {"workspace_radius", descriptor.workspace_radius}};
+      {"workspace_radius", descriptor.workspace_radius},
+      {"limit_rate", descriptor.limit_rate},
+      {"max_limit_stiffness", descriptor.max_limit_stiffness}};
   for (const auto& [field, value] : limits) {
     if (!std::isfinite(value) || value < 0.0) return BadField{field, "must be finite and not negative", value};
   }
@@ -73,6 +75,8 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
     return BadField{"delay", "must not be negative", seconds(descriptor.delay)};
   if (descriptor.delay > std::chrono::seconds(1))
     return BadField{"delay", "must not be longer than a second", seconds(descriptor.delay)};
+  if (descriptor.limit_delay < std::chrono::nanoseconds(0) || descriptor.limit_delay > std::chrono::seconds(1))
+    return BadField{"limit_delay", "must lie between 0 and 1 s", seconds(descriptor.limit_delay)};
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];
@@ -93,6 +97,17 @@ double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds perio
 double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept {
   if (told > 0.0) return told / lag;
   return greatest * (lag_of(descriptor, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0)) / lag);
+}
+
+double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept {
+  if (descriptor.finger_command == FingerCommand::kTorque) return 0.0;
+  const double rate = descriptor.limit_rate > 0.0 ? descriptor.limit_rate : descriptor.update_rate;
+  const double lag = 0.5 / rate + std::chrono::duration<double>(descriptor.limit_delay).count();
+  double stiffness = descriptor.max_limit_stiffness;
+  if (descriptor.joint_damping > 0.0) stiffness = std::min(stiffness, descriptor.joint_damping / lag);
+  const bool has_steps = descriptor.joint_friction > 0.0 && descriptor.joint_resolution > 0.0;
+  if (has_steps) stiffness = std::min(stiffness, 2.0 * descriptor.joint_friction / descriptor.joint_resolution);
+  return stiffness;
 }
 
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept {

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/devices/joint_limit.h>
 #include <glissade/hands/hand.h>
 
 namespace glissade::devices {
@@ -106,12 +107,29 @@ struct GloveCommand {
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< force on the hand at the origin of H, in world axes
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   hands::JointValues joint_torques{};               ///< positive toward larger joint angles
+  JointLimits joint_limits{};                       ///< only for devices that take limits, see `FingerCommand`
   /// Total energy (J) that independently moving bodies, such as a part in another hand, have given to this hand so far,
   /// minus the energy that they have requested back, plus the hand's work against withheld force. When `supply` rises,
   /// force and torque are allowed to give the hand the same amount of energy. When `supply` falls, the hand gives up as
   /// much of this amount as it can spare (`GloveState::taken`).
   double supply = 0.0;
+
+  /// Whether neither forces nor limits act.
+  bool is_at_rest() const noexcept {
+    return f_H_W.isZero(0.0) && t_H_W.isZero(0.0) && joint_torques == hands::JointValues{} && !joint_limits.any();
+  }
 };
+
+/// What the fingers of a device take. Messages carry the number.
+enum class FingerCommand : std::int32_t {
+  kTorque = 0,      ///< a torque for each joint
+  kJointLimit = 1,  ///< a limit for each joint, which the device holds in its own loop
+  kCurlLimit = 2,   ///< a limit for the flexion of each finger; its driver makes it of the joint limits
+  kBrake = 3,       ///< a resistance for each finger; its driver makes it of the joint limits
+};
+
+/// Number of kinds; their values run from 0 to kFingerCommands − 1.
+inline constexpr std::int32_t kFingerCommands = 4;
 
 /// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, Nm s/rad, rad, m, s, Hz. Required:
 /// `max_force`, `max_torque`, `max_stiffness` and `max_rotational_stiffness`. By default, the hand feels nothing.
@@ -151,11 +169,17 @@ struct DeviceDescriptor {
   hands::JointValues joint_lower{};    ///< lower limits of the joint angles; both limits of an absent joint are 0
   hands::JointValues joint_upper{};    ///< upper limits of the joint angles
   double update_rate = 1000.0;         ///< updates per second
+  FingerCommand finger_command = FingerCommand::kTorque;
+  // Of a device that takes limits of its fingers:
+  double limit_rate = 0.0;                  ///< updates per second of the device's own loop; 0: `update_rate`
+  std::chrono::nanoseconds limit_delay{0};  ///< from measurement to torque in this loop, in addition to its period
+  double max_limit_stiffness = 0.0;         ///< largest stiffness of a limit rendered without shaking, Nm/rad
 };
 
 /// Throws std::invalid_argument, naming the device and the field, if a number is not finite; a `max_` limit,
-/// `workspace_radius` or a property of the bare device is negative; a joint's lower limit is not below its upper limit,
-/// unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is negative; or `delay` is outside 0 to 1 s.
+/// `workspace_radius` or a property of the bare device or of its limits is negative; a joint's lower limit is not below
+/// its upper limit, unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is negative; or `delay` or
+/// `limit_delay` is outside 0 to 1 s.
 void validate(const DeviceDescriptor& descriptor);
 
 /// The lag (seconds) of the device's force behind the motion, for a loop with `period` and a link with `link_delay`.
@@ -168,6 +192,10 @@ double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds perio
 /// by lag. If `told` is 0, assumes the damping that just makes the device's largest stiffness, `greatest`, passive
 /// without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
 double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept;
+
+/// The stiffness (Nm/rad) of the limits that the device holds passively in its own loop, with its joint damping and
+/// friction. 0 for a device that takes torques.
+double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
 
 /// The largest rate (Nm/s) of change of a joint torque.
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;

@@ -5,6 +5,7 @@
 #include "envelope/energy_limit.h"
 #include "envelope/envelope_numbers.h"
 #include "envelope/fade.h"
+#include "envelope/finger_limits.h"
 #include "envelope/link_delay.h"
 #include "envelope/simple_limits.h"
 #include "envelope/state_check.h"
@@ -37,7 +38,8 @@ struct SafetyEnvelope::Stages {
         check(descriptor, rounded(patience_periods * std::chrono::duration<double>(period))),
         fade(descriptor, in_seconds(period)),
         norms(descriptor),
-        energy(descriptor, rates, period, rounded(patience_periods * std::chrono::duration<double>(period))) {
+        energy(descriptor, rates, period, rounded(patience_periods * std::chrono::duration<double>(period))),
+        finger_limits(descriptor, in_seconds(period)) {
     descriptor.max_force = rates.max_force();
     descriptor.max_torque = rates.max_torque();
   }
@@ -61,6 +63,7 @@ struct SafetyEnvelope::Stages {
   Fade fade;
   NormLimit norms;
   EnergyLimit energy;
+  FingerLimits finger_limits;
   Forces wanted;  // newest finite one
   Forces last;    // always finite
   bool is_stopped = false;
@@ -123,9 +126,10 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   stages.energy.settle(forces, !stages.fade.is_whole(), now, dt);
   stages.energy.limit(forces, state, stages.last, now, dt, reasons);
   stages.rates.limit(forces, stages.last, dt, reasons);
+  const JointLimits& limits =
+      stages.finger_limits.limit(wanted.joint_limits, state.joint_angles, is_fading, stages.fade, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
-  if (is_fading && !forces.has_wrench() && forces.joints == hands::JointValues{}) stages.fade.begin_at_zero();
   stages.norms.observe_given(forces, dt);
   stages.energy.observe_given(stages.wanted, forces, now);
   stages.last = forces;
@@ -137,6 +141,8 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   safe.values_.f_H_W = forces.f;
   safe.values_.t_H_W = forces.t;
   safe.values_.joint_torques = forces.joints;
+  safe.values_.joint_limits = limits;
+  if (is_fading && safe.values_.is_at_rest()) stages.fade.begin_at_zero();
   return safe;
 }
 

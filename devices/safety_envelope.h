@@ -81,10 +81,13 @@ std::string to_text(const SafeCommand& command);
 /// Force and torque have separate maxima, so that a device without torque still gives its force. But the axis of the
 /// wrench moves when one of them is at its maximum. The power limit scales force and torque by the same factor.
 ///
-/// Force and torques fade within seven periods and return within 200 ms. Both take longer if the rate in the descriptor
-/// is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring them to zero
-/// within 15 periods, because the hand could draw energy from a force that falls too slowly. Not thread-safe. Real-time
-/// safe: no allocation, no lock, no system call.
+/// Limits that the device holds by itself (`JointLimits`) tighten no faster than torques rise. When they move against a
+/// finger, their springs gain no more energy than 20 mJ and what other limits have given up, plus 5 mW.
+///
+/// Force, torques and limits fade within seven periods and return within 200 ms. Both take longer if the rate in the
+/// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring
+/// them to zero within 15 periods, because the hand could draw energy from a force that falls too slowly. Not
+/// thread-safe. Real-time safe: no allocation, no lock, no system call.
 class SafetyEnvelope {
  public:
   /// States and commands older than `patience_periods` periods count as old. A period is the longer of the periods of

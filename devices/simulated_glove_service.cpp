@@ -51,10 +51,7 @@ bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   waited_.store(waited() + passed - script_passed, std::memory_order_relaxed);
   if (!should_end_.load(std::memory_order_acquire)) return true;
   constexpr int kLongestEnd = 100;  // periods; longer than any fade of this glove
-  const GloveCommand& values = command.values();
-  const bool is_at_rest =
-      values.f_H_W.isZero(0.0) && values.t_H_W.isZero(0.0) && values.joint_torques == hands::JointValues{};
-  return !is_at_rest && ++ending_ticks_ < kLongestEnd;
+  return !command.values().is_at_rest() && ++ending_ticks_ < kLongestEnd;
 }
 
 /// Of what the wearer sees and feels, the older.

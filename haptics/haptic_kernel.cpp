@@ -320,7 +320,7 @@ double HapticKernel::book(HandInDevice& hand, const Rendering& r) noexcept {
                                   .from_elsewhere = lifted + share * r.contacts.from_movers});
 }
 
-/// The wanted wrench on the hand root, and the torques of the joints.
+/// The wanted wrench on the hand root, and the torques or limits of the joints.
 void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCommand& command) noexcept {
   const HandTick& tick = r.tick;
   if (r.has_pose) {
@@ -331,7 +331,9 @@ void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCo
     command.f_H_W = on_hand.f;
     command.t_H_W = on_hand.t;
   }
-  if (hand.fingers) {
+  if (hand.fingers && hand.fingers->takes_limits()) {
+    command.joint_limits = hand.fingers->limits(r.set.hands[r.number], r.age);
+  } else if (hand.fingers) {
     const FingerLoad::Load load{tick.part ? static_cast<std::int32_t>(*tick.part) : -1,
                                 {tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t},
                                 r.p_Wref,

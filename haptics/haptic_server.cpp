@@ -122,10 +122,8 @@ bool HapticServer::go_on_fading() noexcept {
   bool goes_on = false;
   for (std::size_t h = 0; h < devices_.size(); ++h) {
     const devices::GloveCommand& command = record_.tick.hands[h].command.values();
-    const bool is_at_rest =
-        command.f_H_W.isZero(0.0) && command.t_H_W.isZero(0.0) && command.joint_torques == hands::JointValues{};
     const std::chrono::nanoseconds fading = record_.time - *fading_since_;
-    goes_on = goes_on || (!is_at_rest && fading < longest_fade(devices_[h]->descriptor()));
+    goes_on = goes_on || (!command.is_at_rest() && fading < longest_fade(devices_[h]->descriptor()));
   }
   if (goes_on) return true;
   if (ticks() > 0) statistics_.page_faults = page_faults_of_this_thread() - page_faults_before_;

@@ -25,8 +25,16 @@ inline bool is_finite(std::chrono::nanoseconds time) noexcept {
   return -kGreatest < time && time < kGreatest;
 }
 
+inline bool is_finite(const JointLimits& limits) noexcept {
+  return is_finite(limits.expiry) &&
+         std::all_of(limits.joints.begin(), limits.joints.end(), [](const JointLimit& joint) {
+           return std::isfinite(joint.lower) && std::isfinite(joint.upper) && std::isfinite(joint.stiffness) &&
+                  std::isfinite(joint.damping) && std::isfinite(joint.max_torque);
+         });
+}
+
 inline bool is_finite(const GloveCommand& command) noexcept {
-  return std::isfinite(command.supply) && is_finite(command.state_time) && command.f_H_W.allFinite() &&
+  return is_finite(command.joint_limits) && std::isfinite(command.supply) && is_finite(command.state_time) && command.f_H_W.allFinite() &&
          command.t_H_W.allFinite() && all_finite(command.joint_torques);
 }
 

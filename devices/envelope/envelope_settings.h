@@ -69,6 +69,12 @@ struct EnvelopeSettings {
   double resting_rad_per_s = 0.5;
   std::chrono::milliseconds rested{500};  ///< after which a hand that has moved rests again
 
+  // Limits that the device holds:
+  double limits_start_J = 20e-3;  ///< for springs that gain energy as limits move. Less: a late limit stays soft
+  double limits_most_J = 40e-3;   ///< more: a longer rattle until the limits stand still
+  double limits_refill_W = 5e-3;
+  double limits_last_periods = 3.0;  ///< of the device without a command, then it opens them. Fewer: lost packets open
+
   // Supply:
   double forgotten_s = 1.0;  ///< time constant in which an unmet request lapses
 };

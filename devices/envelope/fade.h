@@ -19,6 +19,8 @@ class Fade {
   }
 
   bool is_whole() const noexcept { return gain_ == 1.0; }
+  /// The share of a force that returns, from 0 to 1.
+  double gain() const noexcept { return gain_; }
 
   /// The return begins at zero, however soon the force was there.
   void begin_at_zero() noexcept { gain_ = 0.0; }

@@ -9,6 +9,7 @@
 #include <glissade/lcmtypes/glove_state_t.hpp>
 
 #include "lcm/bad_field.h"
+#include "lcm/limit_message.h"
 #include "lcm/message_fields.h"
 
 namespace glissade::devices {
@@ -45,6 +46,14 @@ DecodeResult check(const glove_command_t& message) noexcept {
   fields.magnitude("force_H_W_N", message.force_H_W_N, kLargestForce);
   fields.magnitude("torque_H_W_Nm", message.torque_H_W_Nm, kLargestTorque);
   fields.magnitude("joint_torques_Nm", message.joint_torques_Nm, kLargestTorque);
+  for (const joint_limit_t& limit : message.joint_limits) {
+    fields.magnitude("joint_limits.lower_rad", limit.lower_rad, kNoLimit_rad);
+    fields.magnitude("joint_limits.upper_rad", limit.upper_rad, kNoLimit_rad);
+    fields.magnitude("joint_limits.stiffness_Nm_per_rad", limit.stiffness_Nm_per_rad, kLargestTorque);
+    fields.magnitude("joint_limits.damping_Nm_s_per_rad", limit.damping_Nm_s_per_rad, kLargestTorque);
+    fields.magnitude("joint_limits.max_torque_Nm", limit.max_torque_Nm, kLargestTorque);
+  }
+  fields.time("limits_expire_ns", message.limits_expire_ns);
   fields.magnitude("supply_J", message.supply_J, kLargestEnergy);
   return fields.result();
 }
@@ -74,6 +83,8 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   use(message.max_turn_rate_rad_per_s, descriptor.max_turn_rate);
   use(message.workspace_radius_m, descriptor.workspace_radius);
   use(message.update_rate_Hz, descriptor.update_rate);
+  use(message.limit_rate_Hz, descriptor.limit_rate);
+  use(message.max_limit_stiffness_Nm_per_rad, descriptor.max_limit_stiffness);
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     use(message.joint_lower_rad[i], descriptor.joint_lower[i]);
     use(message.joint_upper_rad[i], descriptor.joint_upper[i]);
@@ -93,6 +104,8 @@ std::vector<std::uint8_t> encode(const GloveInfo& info) {
   for_each_limit(message, info.descriptor, [](double& sent, double value) { sent = value; });
   message.frozen_ns = info.descriptor.frozen.count();
   message.delay_ns = info.descriptor.delay.count();
+  message.finger_command = static_cast<std::int32_t>(info.descriptor.finger_command);
+  message.limit_delay_ns = info.descriptor.limit_delay.count();
   return to_bytes(message);
 }
 
@@ -134,6 +147,9 @@ std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand
   put(command.t_H_W, message.torque_H_W_Nm);
   message.supply_J = command.supply;
   std::copy(command.joint_torques.begin(), command.joint_torques.end(), message.joint_torques_Nm);
+  for (std::size_t j = 0; j < hands::kJoints; ++j)
+    message.joint_limits[j] = limit_message(command.joint_limits.joints[j]);
+  message.limits_expire_ns = command.joint_limits.expiry.count();
   return to_bytes(message);
 }
 
@@ -145,12 +161,16 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   fields.positive("session", message.session);
   fields.time("frozen_ns", message.frozen_ns);
   fields.time("delay_ns", message.delay_ns);
+  fields.time("limit_delay_ns", message.limit_delay_ns);
+  fields.between("finger_command", message.finger_command, 0, kFingerCommands - 1);
   fields.between("side", message.side, 0, glove_state_t::SIDE_RIGHT);
   fields.between("name", message.name[std::size(message.name) - 1], 0, 0);
   DeviceDescriptor descriptor;
   for_each_limit(message, descriptor, [](double sent, double& value) { value = sent; });
   descriptor.frozen = std::chrono::nanoseconds(message.frozen_ns);
   descriptor.delay = std::chrono::nanoseconds(message.delay_ns);
+  descriptor.limit_delay = std::chrono::nanoseconds(message.limit_delay_ns);
+  descriptor.finger_command = FingerCommand{message.finger_command};
   if (fields.result() != MessageError::kNone) return fields.result();
   if (const std::optional<BadField> bad = first_bad_field(descriptor))
     return {MessageError::kOutOfRange, {.name = bad->name, .value = bad->value}};
@@ -200,6 +220,9 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, CommandHeader& header, 
   command.f_H_W = Eigen::Vector3d(message.force_H_W_N);
   command.t_H_W = Eigen::Vector3d(message.torque_H_W_Nm);
   std::copy_n(message.joint_torques_Nm, hands::kJoints, command.joint_torques.begin());
+  for (std::size_t j = 0; j < hands::kJoints; ++j)
+    command.joint_limits.joints[j] = limit_of(message.joint_limits[j]);
+  command.joint_limits.expiry = std::chrono::nanoseconds(message.limits_expire_ns);
   command.supply = message.supply_J;
   return MessageError::kNone;
 }

@@ -36,7 +36,7 @@ FingersOfHand::FingersOfHand(const FingerHand& hand, const devices::DeviceDescri
     : hand_(checked_wrist(hand)),
       forces_(hand, device, period),
       load_(device, joints_of_wrist(hand), period),
-      device_delay_(device.delay) {
+      device_(device) {
   set_link_delay(std::chrono::nanoseconds(0));
 }
 
@@ -65,7 +65,7 @@ bool FingersOfHand::is_new(std::int64_t decision) noexcept {
 
 void FingersOfHand::set_link_delay(std::chrono::nanoseconds delay) noexcept {
   forces_.set_link_delay(delay);
-  load_.set_link(std::chrono::duration<double>(device_delay_ + delay).count(), forces_.stiffness());
+  load_.set_link(std::chrono::duration<double>(device_.delay + delay).count(), forces_.stiffness());
 }
 
 hands::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,

@@ -15,6 +15,7 @@
 #include <glissade/haptics/finger_forces.h>
 
 #include "loop/finger_load.h"
+#include "loop/limits_of_hand.h"
 
 namespace glissade::haptics {
 
@@ -36,6 +37,11 @@ class FingersOfHand {
   bool is_new(std::int64_t decision) noexcept;
 
   void set_link_delay(std::chrono::nanoseconds delay) noexcept;
+  /// Whether the glove takes limits of its joints instead of torques.
+  bool takes_limits() const noexcept { return device_.finger_command != devices::FingerCommand::kTorque; }
+  devices::JointLimits limits(const HandAnswer& answer, std::chrono::nanoseconds age) const noexcept {
+    return limits_of_hand(hand_, device_, answer, age);
+  }
   /// Torques (Nm) of the springs at the joints, and of the load of the held part.
   hands::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
                              const FingerLoad::Load& load, double dt) noexcept;
@@ -49,7 +55,7 @@ class FingersOfHand {
   FingerHand hand_;
   FingerForces forces_;
   FingerLoad load_;
-  std::chrono::nanoseconds device_delay_;
+  devices::DeviceDescriptor device_;
   hands::JointValues angles_{};  // of the wrist, as the ghost has them
   bool is_found_ = false;        // the angles are those of a state
   std::int64_t decision_ = 0;

@@ -37,7 +37,10 @@ devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
   hand.energy = tick.command.energy();
   hand.glove_energy = state.energy;
   hand.visible = visible;
-  hand.joint_torques = command.joint_torques;
+  for (std::size_t j = 0; j < hands::kJoints; ++j) {
+    hand.joint_torques[j] =
+        command.joint_torques[j] + devices::limit_torque(command.joint_limits.joints[j], state.joint_angles[j], 0.0);
+  }
   return hand;
 }
 

@@ -60,6 +60,19 @@ void put_command(const devices::SafeCommand& safe, tick_hand_t& message) {
   message.energy_J = safe.energy();
 }
 
+/// Devices that take torques get no limits, and their ticks carry none.
+void put_limits(const devices::JointLimits& limits, haptic_tick_t& message) {
+  if (!limits.any()) return;
+  for (const devices::JointLimit& limit : limits.joints) {
+    joint_limit_t& entry = message.limits.emplace_back();
+    entry.lower_rad = limit.lower;
+    entry.upper_rad = limit.upper;
+    entry.stiffness_Nm_per_rad = limit.stiffness;
+    entry.damping_Nm_s_per_rad = limit.damping;
+    entry.max_torque_Nm = limit.max_torque;
+  }
+}
+
 haptic_tick_t message_of(const TickRecord& record) {
   haptic_tick_t message{};
   message.version = haptic_tick_t::VERSION;
@@ -77,14 +90,17 @@ haptic_tick_t message_of(const TickRecord& record) {
   }
   for (std::size_t h = 0; h < static_cast<std::size_t>(record.hand_count); ++h) {
     tick_hand_t& hand = message.hands.emplace_back();
-    if (record.has_state[h]) put_state(record.states[h], hand);
-    if (record.has_state[h]) put_command(record.tick.hands[h].command, hand);
+    if (!record.has_state[h]) continue;
+    put_state(record.states[h], hand);
+    put_command(record.tick.hands[h].command, hand);
+    put_limits(record.tick.hands[h].command.values().joint_limits, message);
   }
   for (std::size_t p = 0; p < static_cast<std::size_t>(record.part_count); ++p)
     message.ghosts.push_back(ghost_message(record.tick.ghosts.parts[p]));
   message.request_count = static_cast<std::int32_t>(message.requests.size());
   message.hand_count = record.hand_count;
   message.part_count = record.part_count;
+  message.limit_count = static_cast<std::int32_t>(message.limits.size());
   return message;
 }
 
@@ -100,7 +116,8 @@ bool is_message_of(const TickRecord& record, std::span<const std::uint8_t> bytes
 }
 
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::int32_t, 3> kLargest{HoldRequests::kMost, hands::kMaxHands, contact::kMaxParts};
+  constexpr std::array<std::int32_t, 4> kLargest{HoldRequests::kMost, hands::kMaxHands, contact::kMaxParts,
+                                                 hands::kMaxHands * hands::kJoints};
   const auto message = from_checked_bytes<haptic_tick_t>(bytes, kLargest);
   if (!message) return std::nullopt;
   TickRecord record;

@@ -24,8 +24,7 @@ inline GloveCommand pull(double newtons) {
 }
 
 inline bool is_zero(const SafeCommand& command) {
-  const GloveCommand& values = command.values();
-  return values.f_H_W.isZero(0.0) && values.t_H_W.isZero(0.0) && values.joint_torques == hands::JointValues{};
+  return command.values().is_at_rest();
 }
 
 /// A link of 1 kHz whose states are one millisecond old when they are answered. The clocks of glove and server differ.

@@ -1,0 +1,40 @@
+#pragma once
+
+/// The limits of finger joints on their way to a device which holds them by itself.
+
+#include <chrono>
+
+#include "envelope/fade.h"
+#include "envelope/forces.h"
+
+namespace glissade::devices {
+
+/// Keeps limits within the device's torque and stiffness. Lets them tighten so that no torque rises faster than the
+/// device's rate, and the springs gain no more energy than an account pays for. Opens them in a fade.
+///
+/// A limit that stands still is a spring, which gives back no more than the finger has put in. Only a limit that moves
+/// against a finger gives energy: the difference of what its spring stores. The account begins with 20 mJ, and gets
+/// back what limits give up that move away, and 5 mW, to at most 40 mJ.
+class FingerLimits {
+ public:
+  explicit FingerLimits(const DeviceDescriptor& descriptor, double period_s);
+
+  /// The limits for this period, `dt` (seconds) after the last one. `angles` are the newest of the device (rad).
+  const JointLimits& limit(const JointLimits& wanted, const hands::JointValues& angles, bool is_fading,
+                           const Fade& fade, double dt, LimitReasons& reasons) noexcept;
+
+ private:
+  JointLimit within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept;
+  bool tighten(JointLimit& limit, const JointLimit& last, double angle, double dt) const noexcept;
+  bool pay(const hands::JointValues& angles, JointLimits& next) noexcept;
+
+  const DeviceDescriptor& descriptor_;
+  double stiffness_;    // Nm/rad, at most
+  double torque_rate_;  // Nm/s
+  double fade_s_;
+  std::chrono::nanoseconds longest_expiry_;
+  double energy_;  // J
+  JointLimits last_;
+};
+
+}  // namespace glissade::devices

@@ -1,0 +1,28 @@
+#pragma once
+
+/// Limits of finger joints in messages.
+
+#include <glissade/devices/joint_limit.h>
+#include <glissade/lcmtypes/joint_limit_t.hpp>
+
+namespace glissade::devices {
+
+inline joint_limit_t limit_message(const JointLimit& limit) noexcept {
+  joint_limit_t message;
+  message.lower_rad = limit.lower;
+  message.upper_rad = limit.upper;
+  message.stiffness_Nm_per_rad = limit.stiffness;
+  message.damping_Nm_s_per_rad = limit.damping;
+  message.max_torque_Nm = limit.max_torque;
+  return message;
+}
+
+inline JointLimit limit_of(const joint_limit_t& message) noexcept {
+  return {.lower = message.lower_rad,
+          .upper = message.upper_rad,
+          .stiffness = message.stiffness_Nm_per_rad,
+          .damping = message.damping_Nm_s_per_rad,
+          .max_torque = message.max_torque_Nm};
+}
+
+}  // namespace glissade::devices
