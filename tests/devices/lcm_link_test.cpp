@@ -61,6 +61,10 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   descriptor.joint_friction = 0.004;
   descriptor.joint_resolution = 2e-3;
   descriptor.frozen = milliseconds(50);
+  descriptor.finger_command = FingerCommand::kCurlLimit;
+  descriptor.limit_rate = 50.0;
+  descriptor.limit_delay = milliseconds(7);
+  descriptor.max_limit_stiffness = 3.0;
   LcmGloveHost host(bus, descriptor, {.device = 3, .side = hands::HandSide::kLeft});
   GloveSearch search(bus);
   std::atomic<bool> should_end{false};
@@ -82,6 +86,10 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   EXPECT_EQ(found->descriptor.joint_friction, 0.004);
   EXPECT_EQ(found->descriptor.joint_resolution, 2e-3);
   EXPECT_EQ(found->descriptor.frozen, milliseconds(50));
+  EXPECT_EQ(found->descriptor.finger_command, FingerCommand::kCurlLimit);
+  EXPECT_EQ(found->descriptor.limit_rate, 50.0);
+  EXPECT_EQ(found->descriptor.limit_delay, milliseconds(7));
+  EXPECT_EQ(found->descriptor.max_limit_stiffness, 3.0);
   EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
   EXPECT_EQ(found->descriptor.update_rate, 1000.0);
 }
@@ -344,6 +352,21 @@ TEST_F(CommandsToAGlove, GloveReportsLimitReasonsAndCommandAge) {
   ASSERT_TRUE(eventually(period));
   EXPECT_TRUE(told.limits.is_command_old);
   EXPECT_GT(told.command_age, milliseconds(10));
+}
+
+TEST(LimitsOnTheWire, ArriveWhole) {
+  GloveCommand sent;
+  for (std::size_t j = 0; j < hands::kJoints; ++j) {
+    const double number = 0.01 * static_cast<double>(j + 1);
+    sent.joint_limits.joints[j] = {-number, 2.0 * number, 3.0 * number, 4.0 * number, 5.0 * number};
+  }
+  sent.joint_limits.expiry = milliseconds(50);
+  CommandHeader header;
+  GloveCommand received;
+  ASSERT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kNone);
+  EXPECT_EQ(received.joint_limits, sent.joint_limits);
+  sent.joint_limits.joints[21].upper = 6.1;
+  EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kOutOfRange);
 }
 
 TEST_F(CommandsToAGlove, SpoiltOnesAreRefused) {
