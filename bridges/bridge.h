@@ -1,0 +1,34 @@
+#pragma once
+
+/// Joins a wire to the link of Glissade: states go to the server, safe commands to the device.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include <glissade/bridges/wire.h>
+#include <glissade/devices/lcm_bus.h>
+#include <glissade/devices/lcm_glove.h>
+
+namespace glissade::bridges {
+
+struct BridgeOptions {
+  devices::LcmGloveHostOptions link;
+  std::chrono::nanoseconds reopen_after{std::chrono::milliseconds(500)};  ///< pause after an error of the wire
+};
+
+/// What a bridge has done so far.
+struct BridgeStatistics {
+  std::uint64_t states = 0;  ///< measurements sent to the server
+  std::uint64_t errors = 0;  ///< of the wire; it was opened anew after each
+};
+
+/// Runs until `goes_on` returns false, which is asked once a period. A wire that fails is released, and opened anew
+/// after a pause, as often as needed; `say` receives a sentence for each failure and each return. At the end the wire
+/// is released. Throws what `LcmGloveHost` throws.
+BridgeStatistics run_bridge(Wire& wire, const std::shared_ptr<devices::LcmBus>& bus, const BridgeOptions& options,
+                            const std::function<bool()>& goes_on, const std::function<void(const std::string&)>& say);
+
+}  // namespace glissade::bridges
