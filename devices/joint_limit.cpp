@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glissade/devices/joint_limit.h>
+#include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
 namespace {

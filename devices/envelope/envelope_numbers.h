@@ -34,8 +34,8 @@ inline bool is_finite(const JointLimits& limits) noexcept {
 }
 
 inline bool is_finite(const GloveCommand& command) noexcept {
-  return is_finite(command.joint_limits) && std::isfinite(command.supply) && is_finite(command.state_time) && command.f_H_W.allFinite() &&
-         command.t_H_W.allFinite() && all_finite(command.joint_torques);
+  return is_finite(command.joint_limits) && std::isfinite(command.supply) && is_finite(command.state_time) &&
+         command.f_H_W.allFinite() && command.t_H_W.allFinite() && all_finite(command.joint_torques);
 }
 
 inline bool is_finite(const GloveState& state) noexcept {

@@ -2,7 +2,7 @@
 
 /// Limits of finger joints in messages.
 
-#include <glissade/devices/joint_limit.h>
+#include <glissade/devices/glove_device.h>
 #include <glissade/lcmtypes/joint_limit_t.hpp>
 
 namespace glissade::devices {

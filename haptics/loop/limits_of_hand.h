@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-#include <glissade/devices/joint_limit.h>
+#include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/finger_forces.h>
 

@@ -9,6 +9,8 @@
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove.h>
 
+#include "lcm/glove_messages.h"
+
 namespace glissade::devices {
 namespace {
 
@@ -191,6 +193,21 @@ TEST_F(LimitsInEnvelope, ExpireAfterThreePeriodsOfASlowDevice) {
 TEST_F(LimitsInEnvelope, DeviceOfTorquesGetsNone) {
   envelope_ = SafetyEnvelope(simulated_glove_descriptor());
   EXPECT_EQ(hold(kAtHalf, 300), JointLimit{});
+}
+
+TEST(LimitsOnTheWire, ArriveWhole) {
+  GloveCommand sent;
+  for (std::size_t j = 0; j < hands::kJoints; ++j) {
+    const double number = 0.01 * static_cast<double>(j + 1);
+    sent.joint_limits.joints[j] = {-number, 2.0 * number, 3.0 * number, 4.0 * number, 5.0 * number};
+  }
+  sent.joint_limits.expiry = milliseconds(50);
+  CommandHeader header;
+  GloveCommand received;
+  ASSERT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kNone);
+  EXPECT_EQ(received.joint_limits, sent.joint_limits);
+  sent.joint_limits.joints[21].upper = 6.1;
+  EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kOutOfRange);
 }
 
 }  // namespace

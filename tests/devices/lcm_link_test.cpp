@@ -354,21 +354,6 @@ TEST_F(CommandsToAGlove, GloveReportsLimitReasonsAndCommandAge) {
   EXPECT_GT(told.command_age, milliseconds(10));
 }
 
-TEST(LimitsOnTheWire, ArriveWhole) {
-  GloveCommand sent;
-  for (std::size_t j = 0; j < hands::kJoints; ++j) {
-    const double number = 0.01 * static_cast<double>(j + 1);
-    sent.joint_limits.joints[j] = {-number, 2.0 * number, 3.0 * number, 4.0 * number, 5.0 * number};
-  }
-  sent.joint_limits.expiry = milliseconds(50);
-  CommandHeader header;
-  GloveCommand received;
-  ASSERT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kNone);
-  EXPECT_EQ(received.joint_limits, sent.joint_limits);
-  sent.joint_limits.joints[21].upper = 6.1;
-  EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kOutOfRange);
-}
-
 TEST_F(CommandsToAGlove, SpoiltOnesAreRefused) {
   const auto send_spoilt = [&](const std::function<void(glove_command_t&)>& spoil) {
     glove_command_t message = good;
