@@ -119,6 +119,25 @@ TEST_F(FingerHandInKernel, DoesNotFollowAWristThatJumps) {
   EXPECT_LE((ghost(0) - before).norm(), 0.1 * 30.0 * 1e-3 + 1e-12);
 }
 
+TEST_F(FingerHandInKernel, GloveThatTakesLimitsGetsLimitsAndNoTorque) {
+  device_.finger_command = devices::FingerCommand::kJointLimit;
+  device_.max_limit_stiffness = 5.0;
+  HapticKernel kernel{{{Vector3d::Zero(), 0.05, {1000.0, 2.0}}}, {{.device = device_, .fingers = hand_with_wrist()}}};
+  touch_first_joint();
+  state_.joint_angles[0] = 0.2;
+  const devices::GloveState* const newest = &state_;
+  devices::GloveCommand command;
+  for (int i = 0; i < 400; ++i) {
+    now_ += kTickPeriod;
+    state_.time = set_.time = now_;
+    ++state_.sequence;
+    command = kernel.tick({&newest, 1}, set_, now_).hands[0].command.values();
+  }
+  EXPECT_EQ(command.joint_torques, JointValues{});
+  EXPECT_EQ(command.joint_limits.joints[0], (devices::JointLimit{.upper = 0.0, .stiffness = 5.0, .max_torque = 0.5}));
+  EXPECT_EQ(command.joint_limits.joints[5], devices::JointLimit{});
+}
+
 TEST_F(FingerHandInKernel, TorqueOnlyAtTheStoppedJoint) {
   touch_first_joint();
   tick();
