@@ -73,7 +73,8 @@ struct EnvelopeSettings {
   double limits_start_J = 20e-3;  ///< for springs that gain energy as limits move. Less: a late limit stays soft
   double limits_most_J = 40e-3;   ///< more: a longer rattle until the limits stand still
   double limits_refill_W = 5e-3;
-  double limits_last_periods = 3.0;  ///< of the device without a command, then it opens them. Fewer: lost packets open
+  double limits_rest_refill_W = 0.2;  ///< while all fingers rest. Less: limits return late after an interruption
+  double limits_last_periods = 3.0;   ///< of the device without a command, then it opens them. Fewer: lost packets open
 
   // Supply:
   double forgotten_s = 1.0;  ///< time constant in which an unmet request lapses

@@ -38,7 +38,8 @@ FingerLimits::FingerLimits(const DeviceDescriptor& descriptor, double period_s)
 const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::JointValues& angles, bool is_fading,
                                        const Fade& fade, double dt, LimitReasons& reasons) noexcept {
   if (stiffness_ <= 0.0) return last_;
-  energy_ = std::min(kEnvelope.limits_most_J, energy_ + kEnvelope.limits_refill_W * dt);
+  const double refill_W = are_resting(angles, dt) ? kEnvelope.limits_rest_refill_W : kEnvelope.limits_refill_W;
+  energy_ = std::min(kEnvelope.limits_most_J, energy_ + refill_W * dt);
   JointLimits next;
   next.expiry = longest_expiry_;
   for (std::size_t j = 0; j < hands::kJoints; ++j) {
@@ -58,6 +59,18 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
   if (!is_fading && pay(angles, next)) reasons.energy_limited = true;
   last_ = next;
   return last_;
+}
+
+bool FingerLimits::are_resting(const hands::JointValues& angles, double dt) noexcept {
+  if (dt <= 0.0) return false;
+  const double share = std::min(1.0, dt / kEnvelope.mean_speed_s);
+  double fastest = 0.0;
+  for (std::size_t j = 0; j < hands::kJoints; ++j) {
+    rates_[j] += share * ((angles[j] - last_angles_[j]) / dt - rates_[j]);
+    fastest = std::max(fastest, std::abs(rates_[j]));
+  }
+  last_angles_ = angles;
+  return fastest < kEnvelope.resting_rad_per_s;
 }
 
 JointLimit FingerLimits::within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept {

@@ -26,6 +26,7 @@ class FingerLimits {
  private:
   JointLimit within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept;
   bool tighten(JointLimit& limit, const JointLimit& last, double angle, double dt) const noexcept;
+  bool are_resting(const hands::JointValues& angles, double dt) noexcept;
   bool pay(const hands::JointValues& angles, JointLimits& next) noexcept;
 
   const DeviceDescriptor& descriptor_;
@@ -35,6 +36,8 @@ class FingerLimits {
   std::chrono::nanoseconds longest_expiry_;
   double energy_;  // J
   JointLimits last_;
+  hands::JointValues last_angles_{};
+  hands::JointValues rates_{};  // rad/s, smoothed
 };
 
 }  // namespace glissade::devices
