@@ -45,7 +45,7 @@ struct SafetyEnvelope::Stages {
   }
 
   void observe(const GloveState& state, nanoseconds now) noexcept {
-    if (const std::optional<BookedMotion> motion = check.observe(state, now)) energy.observe(*motion, wanted);
+    if (const std::optional<BookedMotion> motion = check.observe(state, now)) energy.observe(*motion);
   }
 
   double seconds_since_last_call(nanoseconds now) noexcept {

@@ -60,13 +60,13 @@ std::string to_text(const SafeCommand& command);
 /// wrench is a continuous function of energy and velocity. The remaining energy must suffice to let the wrench fall to
 /// zero like that of a spring that the device renders passively (derivation: docs/safety.md). At the end of a contact,
 /// the energy falls to at most 0.1 J. Energy below 0.1 J, or below the need of the wanted wrench, recovers: at 0.3 W
-/// without a contact, more slowly in a trembling contact, and faster in a calm contact or after an interruption
-/// (conditions: docs/safety.md). All recovery draws on a budget of 1 J, which refills at 0.25 W. For a glove that
-/// reports the delay of its link, only the envelope at the glove's end limits the energy. So no delay and no error of
-/// the simulation can sustain a fast oscillation that pushes both ways and gives more than 20 mW, and a hand at rest
-/// feels no jump. Source of the observer: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002.
-/// Source of wrenches that shrink with the energy in a tank, and of tanks that exchange energy: Franken et al.,
-/// Bilateral telemanipulation with time delays: a two-layer approach combining passivity and transparency, 2011.
+/// without a contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All recovery
+/// draws on a budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the envelope
+/// at the glove's end limits the energy. So no delay and no error of the simulation can sustain a fast oscillation that
+/// pushes both ways and gives more than 60 mW, and a hand at rest feels no jump. Source of the observer: Hannaford and
+/// Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the energy in a
+/// tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a two-layer
+/// approach combining passivity and transparency, 2011.
 ///
 /// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`,
 /// times the exerted share of the wanted wrench, counts as energy that the hand has put in, at no more than the

@@ -31,7 +31,7 @@ EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, const RateLimit& ra
 /// What the hand did between two states is taken as the cubic curve through both poses with both velocities: where
 /// states stay away, the force is gone after a few periods of a long way. How the hand really went there is not known,
 /// so it has put in nothing.
-void EnergyLimit::observe(const BookedMotion& motion, const Forces& wanted) noexcept {
+void EnergyLimit::observe(const BookedMotion& motion) noexcept {
   const GloveState& from = motion.from;
   const GloveState& to = motion.to;
   // The glove's clock may have been set: the caller's time is the upper bound.
@@ -49,7 +49,7 @@ void EnergyLimit::observe(const BookedMotion& motion, const Forces& wanted) noex
       given_.work(motion.begin, motion.end, curve(way, from.v_WH, to.v_WH), curve(turn, from.w_WH, to.w_WH));
   const bool is_known = motion.end - motion.begin <= longest_known_;
   book(is_known ? -given : std::min(0.0, -given), motion.is_jump, motion.end);
-  strokes_.observe(motion, seconds, given_, wanted);
+  strokes_.observe(motion, given_);
   given_.forget_until(motion.end);
 }
 
@@ -58,7 +58,6 @@ void EnergyLimit::observe(const BookedMotion& motion, const Forces& wanted) noex
 void EnergyLimit::book(double change, bool is_jump, nanoseconds now) noexcept {
   const double before = energy_;
   energy_ = std::min(energy_ + change, most());
-  strokes_.book(change);
   if (!is_jump) return;
   energy_ = std::min(energy_, before);
   const double least = std::min(before, -kEnvelope.most_debt_J);
@@ -84,7 +83,8 @@ void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double
 
 /// While the force returns from an interruption, in which the hand may have gone anywhere, a refill lifts it; many
 /// interruptions use it up. It also pays off slowly what a contact has given too much, e.g. because its contacts
-/// vanished for a moment: but only while nothing oscillates.
+/// vanished for a moment: but only while nothing oscillates, whether the hand seems to put in more than it gets or not.
+/// In each stroke of an oscillation, it does so for a while.
 void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, double dt) noexcept {
   const bool has_contact = has_force_ || forces.has_wrench();
   enough_ = kEnvelope.start_energy_J;
@@ -94,9 +94,7 @@ void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, do
   if (returns) free_until_ = now + kEnvelope.return_is_free;
   strokes_.forget(dt);
   if (energy_ < enough_) {
-    const double in_contact =
-        std::max(strokes_.calm() * kEnvelope.calm_refill_W, strokes_.puts_in(now) ? kEnvelope.trembling_refill_W : 0.0);
-    const double recovery = has_contact ? in_contact : kEnvelope.recovery_W;
+    const double recovery = has_contact ? strokes_.calm() * kEnvelope.calm_refill_W : kEnvelope.recovery_W;
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(enough_ - energy_, most);
     refill_ -= refilled;

@@ -21,7 +21,7 @@ class EnergyLimit {
               std::chrono::nanoseconds patience);
 
   /// Counts the work of a motion.
-  void observe(const BookedMotion& motion, const Forces& wanted) noexcept;
+  void observe(const BookedMotion& motion) noexcept;
 
   void take_supply(const GloveCommand& wanted, bool is_fading, double dt) noexcept;
 

@@ -53,7 +53,6 @@ struct EnvelopeSettings {
   double refill_W = 0.25;       ///< of this allowance; the rest of 0.3 W is for ways that are not measured
   double recovery_W = 0.3;      ///< in free space
   double calm_refill_W = 0.6;   ///< in a calm contact: 90 % of the force after 2 s of rest
-  double trembling_refill_W = 0.15;  ///< in a contact in which a hand trembles and puts in more than it gets
   std::chrono::milliseconds return_is_free{500};  ///< after a return: the refill lifts the hand at once
   double most_debt_J = 0.3;                       ///< left of a jump of the tracker
   std::chrono::seconds forgives_again{30};        ///< a tracker that stands still again and again costs energy
@@ -63,11 +62,6 @@ struct EnvelopeSettings {
   double play_per_resolution = 4.0;   ///< noise of this standard deviation hardly ever leaves the play
   double forget_s = 0.5;              ///< time constant of the memory of strokes
   double most_stirred_J = 0.01;       ///< to and fro, twice the work from which a contact is not calm
-  double most_given_J = 0.1;          ///< remembered of what a hand got more than it put in
-  double mean_speed_s = 0.03;         ///< over which the velocity is averaged
-  double resting_m_per_s = 0.03;      ///< a slower hand rests
-  double resting_rad_per_s = 0.5;
-  std::chrono::milliseconds rested{500};  ///< after which a hand that has moved rests again
 
   // Limits that the device holds:
   double limits_start_J = 20e-3;  ///< for springs that gain energy as limits move. Less: a late limit stays soft

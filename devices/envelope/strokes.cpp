@@ -37,8 +37,7 @@ PoseInPlay::Step PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
   return step;
 }
 
-void Strokes::observe(const BookedMotion& motion, double seconds, const GivenWrenches& given,
-                      const Forces& wanted) noexcept {
+void Strokes::observe(const BookedMotion& motion, const GivenWrenches& given) noexcept {
   if (motion.from.time != last_) pose_.start_at(motion.from.X_WH);
   last_ = motion.to.time;
   const PoseInPlay::Step step = pose_.follow(motion.to.X_WH);
@@ -48,26 +47,12 @@ void Strokes::observe(const BookedMotion& motion, double seconds, const GivenWre
   // No more than that counts, so that a contact is calm soon after a great stroke.
   double& stirred = work < 0.0 ? came_ : went_;
   stirred = std::min(stirred + std::abs(work), kEnvelope.most_stirred_J);
-  if (seconds <= 0.0) return;
-  const double share = std::min(1.0, seconds / kEnvelope.mean_speed_s);
-  v_WH_ += share * (step.way / seconds - v_WH_);
-  w_WH_ += share * (step.turn / seconds - w_WH_);
-  const bool moves = std::abs(v_WH_.dot(wanted.f.normalized())) > kEnvelope.resting_m_per_s ||
-                     std::abs(w_WH_.dot(wanted.t.normalized())) > kEnvelope.resting_rad_per_s;
-  if (moves) moves_until_ = motion.end + kEnvelope.rested;
-}
-
-void Strokes::book(double change) noexcept {
-  // Both bounds let old strokes be forgotten soon. Energy given to the hand is remembered for longer than energy put
-  // in.
-  balance_ = std::clamp(balance_ + change, -kEnvelope.most_given_J, kEnvelope.most_stirred_J);
 }
 
 void Strokes::forget(double dt) noexcept {
   const double kept = 1.0 - std::min(1.0, dt / kEnvelope.forget_s);
   came_ *= kept;
   went_ *= kept;
-  balance_ *= kept;
 }
 
 double Strokes::calm() const noexcept {

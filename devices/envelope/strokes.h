@@ -7,7 +7,6 @@
 
 #include <Eigen/Geometry>
 
-#include "envelope/forces.h"
 #include "envelope/given_wrenches.h"
 #include "envelope/state_check.h"
 
@@ -41,29 +40,18 @@ class Strokes {
  public:
   Strokes(double resolution, double max_force) noexcept : pose_(resolution, max_force) {}
 
-  /// A motion of so many seconds under these wrenches. `wanted` tells along what the hand moves.
-  void observe(const BookedMotion& motion, double seconds, const GivenWrenches& given, const Forces& wanted) noexcept;
-
-  /// What the hand put in (J), by the measured motion.
-  void book(double change) noexcept;
+  void observe(const BookedMotion& motion, const GivenWrenches& given) noexcept;
 
   void forget(double dt) noexcept;
 
   /// 1: nothing goes to and fro. 0: 5 mJ or more do.
   double calm() const noexcept;
 
-  /// Whether the hand rests, and puts in no less than it gets. An oscillation that feeds on the device gets more.
-  bool puts_in(std::chrono::nanoseconds now) const noexcept { return now >= moves_until_ && balance_ > 0.0; }
-
  private:
   PoseInPlay pose_;
-  std::optional<std::chrono::nanoseconds> last_;    // measurement of the glove up to which it was observed
-  Eigen::Vector3d v_WH_ = Eigen::Vector3d::Zero();  // mean velocity of the pose in play, m/s
-  Eigen::Vector3d w_WH_ = Eigen::Vector3d::Zero();  // rad/s
-  double came_ = 0.0;                               // J
+  std::optional<std::chrono::nanoseconds> last_;  // measurement of the glove up to which it was observed
+  double came_ = 0.0;                             // J
   double went_ = 0.0;
-  double balance_ = 0.0;                     // what came less what went, by the measured motion
-  std::chrono::nanoseconds moves_until_{0};  // up to then the hand does not count as at rest
 };
 
 }  // namespace glissade::devices

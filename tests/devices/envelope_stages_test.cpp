@@ -48,7 +48,7 @@ class PushedHand {
     motion.to.time = now_ += milliseconds(1);
     motion.to.X_WH.translation().x() += way;
     given_.give(motion.begin, {20.0, 0.0, 0.0}, Eigen::Vector3d::Zero());
-    strokes_.observe(motion, 1e-3, given_, along_x(20.0));
+    strokes_.observe(motion, given_);
     strokes_.forget(1e-3);
     state_ = motion.to;
   }
