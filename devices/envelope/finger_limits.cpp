@@ -38,7 +38,9 @@ FingerLimits::FingerLimits(const DeviceDescriptor& descriptor, double period_s)
 const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::JointValues& angles, bool is_fading,
                                        const Fade& fade, double dt, LimitReasons& reasons) noexcept {
   if (stiffness_ <= 0.0) return last_;
-  const double refill_W = are_resting(angles, dt) ? kEnvelope.limits_rest_refill_W : kEnvelope.limits_refill_W;
+  observe_rates(angles, dt);
+  const bool are_resting = resting_for_s_ > kEnvelope.rested_s;
+  const double refill_W = are_resting ? kEnvelope.limits_rest_refill_W : kEnvelope.limits_refill_W;
   energy_ = std::min(kEnvelope.limits_most_J, energy_ + refill_W * dt);
   JointLimits next;
   next.expiry = longest_expiry_;
@@ -61,16 +63,16 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
   return last_;
 }
 
-bool FingerLimits::are_resting(const hands::JointValues& angles, double dt) noexcept {
-  if (dt <= 0.0) return false;
-  const double share = std::min(1.0, dt / kEnvelope.mean_speed_s);
+void FingerLimits::observe_rates(const hands::JointValues& angles, double dt) noexcept {
+  if (dt <= 0.0) return;
+  const double share = std::min(1.0, dt / kEnvelope.finger_rate_s);
   double fastest = 0.0;
   for (std::size_t j = 0; j < hands::kJoints; ++j) {
     rates_[j] += share * ((angles[j] - last_angles_[j]) / dt - rates_[j]);
     fastest = std::max(fastest, std::abs(rates_[j]));
   }
   last_angles_ = angles;
-  return fastest < kEnvelope.resting_rad_per_s;
+  resting_for_s_ = fastest < kEnvelope.resting_rad_per_s ? resting_for_s_ + dt : 0.0;
 }
 
 JointLimit FingerLimits::within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept {

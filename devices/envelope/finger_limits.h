@@ -26,7 +26,7 @@ class FingerLimits {
  private:
   JointLimit within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept;
   bool tighten(JointLimit& limit, const JointLimit& last, double angle, double dt) const noexcept;
-  bool are_resting(const hands::JointValues& angles, double dt) noexcept;
+  void observe_rates(const hands::JointValues& angles, double dt) noexcept;
   bool pay(const hands::JointValues& angles, JointLimits& next) noexcept;
 
   const DeviceDescriptor& descriptor_;
@@ -38,6 +38,7 @@ class FingerLimits {
   JointLimits last_;
   hands::JointValues last_angles_{};
   hands::JointValues rates_{};  // rad/s, smoothed
+  double resting_for_s_ = 0.0;  // all fingers
 };
 
 }  // namespace glissade::devices

@@ -23,7 +23,7 @@ TEST(ViewCommand, NamesWhatIsWrong) {
 TEST(ViewOption, ATakenPortNamesTheOption) {
   const viewer::ViewServer other(viewer::ViewScene{});
   const std::string port = std::to_string(other.port());
-  expect_refused({"demo", "--view", port},
+  expect_refused({"demo", "--view", port, "--quiet"},
                  {"--view: port " + port + " cannot be opened", "choose another port, or any free one with --view 0"});
 }
 
