@@ -14,7 +14,7 @@ namespace {
 constexpr std::int64_t kWorkOfProjection = 500;
 constexpr std::int64_t kWorkOfRow = 50;
 constexpr std::int64_t kWorkOfFriction = 60;  // of an evaluation of a contact
-/// Evaluations of each contact, however little work is left.
+/// Evaluations of each contact that shares the load, however little work is left.
 constexpr std::int64_t kLeastFriction = 40;
 
 constexpr CouplingStiffness kImmovable{kUnbounded, kUnbounded};
@@ -98,7 +98,10 @@ void StepProjection::solve_friction(const Displacements& towards, WorkBudget& bu
   coefficients_.clear();
   for (const CoupledRow& row : rows_.rows())
     coefficients_.push_back(slipped(row) ? friction.sliding : friction.at_rest);
-  const std::int64_t most = std::max(budget.left / kWorkOfFriction, kLeastFriction * std::ssize(rows_.rows()));
+  const std::size_t sharing = std::min(rows_.rows().size(), FrictionSolver::kMostSharing);
+  const std::int64_t most =
+      std::max(budget.left / kWorkOfFriction, kLeastFriction * static_cast<std::int64_t>(sharing));
+  budget.spend(kWorkOfRow * std::ssize(rows_.rows()));
   friction_solver_.solve(shared_.of_parts(towards), grips_, rows_.rows(), coefficients_, projected_, forces_, most);
   budget.spend(kWorkOfFriction * friction_solver_.evaluations());
   if (!friction_solver_.is_settled()) ++unsettled_friction_;

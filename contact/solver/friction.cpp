@@ -20,6 +20,10 @@ constexpr double kEnoughDescent = 0.1;  // of that which a step promises
 constexpr double kFirstPenalty = 1e2;
 constexpr double kLastPenalty = 1e5;
 
+/// Of rows that may share the load: how unlike those that do they are. Nothing is like the first of two bodies.
+constexpr double kUnlike = std::numeric_limits<double>::infinity();
+constexpr double kChosen = -1.0;
+
 /// A displacement in the metric of K, and back. A part of infinite stiffness stands still.
 Eigen::Matrix<double, 6, 1> whitened(const geometry::Displacement& d, const CouplingStiffness& k) {
   Eigen::Matrix<double, 6, 1> y = Eigen::Matrix<double, 6, 1>::Zero();
@@ -29,6 +33,31 @@ Eigen::Matrix<double, 6, 1> whitened(const geometry::Displacement& d, const Coup
 
 geometry::Displacement displacement(const Eigen::Matrix<double, 6, 1>& y, const CouplingStiffness& k) {
   return {y.head<3>() / std::sqrt(k.translational), y.tail<3>() / std::sqrt(k.rotational)};
+}
+
+std::array<geometry::Displacement, kMaxParts> displacements_at(const auto& y,
+                                                               std::span<const CouplingStiffness> stiffness) {
+  std::array<geometry::Displacement, kMaxParts> displacements{};
+  for (std::size_t p = 0; p < stiffness.size(); ++p)
+    displacements[p] = displacement(y.template segment<6>(static_cast<Eigen::Index>(6 * p)), stiffness[p]);
+  return displacements;
+}
+
+/// `Row::response` of a row that may have no part in the forces.
+double response(const CoupledRow& row, std::span<const CouplingStiffness> stiffness) {
+  const auto of_part = [&](std::int32_t part, const Eigen::Vector3d& r) {
+    const CouplingStiffness& k = stiffness[static_cast<std::size_t>(part)];
+    return 1.0 / k.translational + 2.0 / 3.0 * r.squaredNorm() / k.rotational;
+  };
+  return of_part(row.part, row.r) + (row.other < 0 ? 0.0 : of_part(row.other, row.r_other));
+}
+
+/// Metres: the lever at which the part's hold is as stiff against rotation as against translation.
+double radius_of_hold(const CoupledRow& row, std::span<const CouplingStiffness> stiffness) {
+  const CouplingStiffness& own = stiffness[static_cast<std::size_t>(row.part)];
+  const bool is_held = std::isfinite(own.translational);
+  const CouplingStiffness& k = is_held || row.other < 0 ? own : stiffness[static_cast<std::size_t>(row.other)];
+  return std::sqrt(k.rotational / k.translational);
 }
 
 /// The directions n, t, t' at a point, as whitened displacements of a part.
@@ -70,7 +99,6 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
                            std::array<geometry::Displacement, kMaxParts>& displacements, std::vector<RowForce>& forces,
                            std::int64_t most_evaluations) {
   GLISSADE_ASSERT(coefficients.size() == rows.size() && stiffness.size() == wanted.size());
-  prepare(stiffness, rows, coefficients);
   Vector y(6 * std::ssize(wanted));
   y_wanted_.resize(y.size());
   for (std::size_t p = 0; p < wanted.size(); ++p) {
@@ -79,21 +107,27 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
     y.segment<6>(first) = whitened(displacements[p], stiffness[p]);
   }
   double size = std::max(y_wanted_.norm(), y.norm());
-  for (const Row& row : rows_)
-    size = std::max(size, row.bound / std::sqrt(row.response));
+  for (const CoupledRow& row : rows) {
+    if (row.bound > 0.0) size = std::max(size, row.bound / std::sqrt(response(row, stiffness)));
+  }
   const double tolerance = kSettled * size;
+  choose_rows(displacements, size / kLastPenalty, stiffness, rows, coefficients);
   penalty_ = kFirstPenalty;
   evaluations_ = 0;
   most_evaluations_ = most_evaluations;
   is_settled_ = false;
-  for (int i = 0; i < kMostUpdates && !is_settled_ && may_go_on(); ++i) {
+  for (int updates = 0; updates < kMostUpdates && !is_settled_ && may_go_on(); ++updates) {
     const bool is_balanced = find_balance(y, tolerance);
-    is_settled_ = update_forces(y) <= tolerance && is_balanced;
+    if (update_forces(y) <= tolerance && is_balanced) {
+      const auto violated = most_violated(displacements_at(y, stiffness), tolerance, stiffness, rows);
+      is_settled_ = !violated;
+      if (violated) add_row(*violated, stiffness, rows, coefficients);
+      updates = 0;
+    }
     penalty_ = std::min(10.0 * penalty_, kLastPenalty);
   }
 
-  for (std::size_t p = 0; p < wanted.size(); ++p)
-    displacements[p] = displacement(y.segment<6>(static_cast<Eigen::Index>(6 * p)), stiffness[p]);
+  displacements = displacements_at(y, stiffness);
   forces.clear();
   for (const Row& row : rows_) {
     if (row.force_contact.x() <= 0.0) continue;
@@ -101,30 +135,76 @@ void FrictionSolver::solve(std::span<const geometry::Displacement> wanted, std::
   }
 }
 
-void FrictionSolver::prepare(std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
-                             std::span<const double> coefficients) {
+/// Takes all rows if they are few. Otherwise takes some of those that touch at these displacements: one after the
+/// other, each time the one that is least like those before in place and normal.
+void FrictionSolver::choose_rows(std::span<const geometry::Displacement> displacements, double tolerance,
+                                 std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
+                                 std::span<const double> coefficients) {
   rows_.clear();
+  is_chosen_.assign(rows.size(), false);
+  touching_.clear();
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const CoupledRow& given = rows[i];
-    if (!std::isfinite(given.bound)) continue;
-    Eigen::Matrix3d directions_W;
-    directions_W.col(0) = given.n;
-    directions_W.col(1) = given.n.unitOrthogonal();
-    directions_W.col(2) = given.n.cross(directions_W.col(1));
-    Row& row = rows_.emplace_back();
-    row.number = static_cast<std::int32_t>(i);
-    row.part = 6 * given.part;
-    row.other = given.other < 0 ? -1 : 6 * given.other;
-    row.J_part = whitened(directions_W, given.r, stiffness[static_cast<std::size_t>(given.part)]);
-    row.J_other.setZero();
-    if (given.other >= 0) {
-      row.J_other = -whitened(directions_W, given.r_other, stiffness[static_cast<std::size_t>(given.other)]);
+    const CoupledRow& row = rows[i];
+    if (!std::isfinite(row.bound)) continue;
+    if (rows.size() <= kMostSharing) {
+      add_row(i, stiffness, rows, coefficients);
+    } else if (row.velocity(displacements) - row.bound <= tolerance * std::sqrt(response(row, stiffness))) {
+      touching_.push_back({i, kUnlike});
     }
-    row.bound = given.bound;
-    row.coefficient = coefficients[i];
-    row.response = (row.J_part.squaredNorm() + row.J_other.squaredNorm()) / 3.0;
-    row.tangents_W = directions_W.rightCols<2>();
   }
+  const std::size_t count = std::min(touching_.size(), kMostSharing);
+  for (auto next = touching_.begin(); rows_.size() < count;) {
+    const CoupledRow& chosen = rows[next->row];
+    add_row(next->row, stiffness, rows, coefficients);
+    const double radius = radius_of_hold(chosen, stiffness);
+    for (Touching& touching : touching_) {
+      const CoupledRow& row = rows[touching.row];
+      if (row.part != chosen.part || row.other != chosen.other) continue;
+      const double unlike = (row.r - chosen.r).squaredNorm() + radius * radius * (row.n - chosen.n).squaredNorm();
+      touching.unlike = std::min(touching.unlike, unlike);
+    }
+    next->unlike = kChosen;
+    next = std::max_element(touching_.begin(), touching_.end(),
+                            [](const Touching& a, const Touching& b) { return a.unlike < b.unlike; });
+  }
+}
+
+/// The row that these displacements violate most, if any.
+std::optional<std::size_t> FrictionSolver::most_violated(std::span<const geometry::Displacement> displacements,
+                                                         double tolerance, std::span<const CouplingStiffness> stiffness,
+                                                         std::span<const CoupledRow> rows) const {
+  std::optional<std::size_t> worst;
+  double most = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double missing = rows[i].bound - rows[i].velocity(displacements);
+    if (is_chosen_[i] || missing <= most || missing <= tolerance * std::sqrt(response(rows[i], stiffness))) continue;
+    most = missing;
+    worst = i;
+  }
+  return worst;
+}
+
+void FrictionSolver::add_row(std::size_t number, std::span<const CouplingStiffness> stiffness,
+                             std::span<const CoupledRow> rows, std::span<const double> coefficients) {
+  is_chosen_[number] = true;
+  const CoupledRow& given = rows[number];
+  Eigen::Matrix3d directions_W;
+  directions_W.col(0) = given.n;
+  directions_W.col(1) = given.n.unitOrthogonal();
+  directions_W.col(2) = given.n.cross(directions_W.col(1));
+  Row& row = rows_.emplace_back();
+  row.number = static_cast<std::int32_t>(number);
+  row.part = 6 * given.part;
+  row.other = given.other < 0 ? -1 : 6 * given.other;
+  row.J_part = whitened(directions_W, given.r, stiffness[static_cast<std::size_t>(given.part)]);
+  row.J_other.setZero();
+  if (given.other >= 0) {
+    row.J_other = -whitened(directions_W, given.r_other, stiffness[static_cast<std::size_t>(given.other)]);
+  }
+  row.bound = given.bound;
+  row.coefficient = coefficients[number];
+  row.response = (row.J_part.squaredNorm() + row.J_other.squaredNorm()) / 3.0;
+  row.tangents_W = directions_W.rightCols<2>();
 }
 
 /// Newton's method for the displacements at which springs and stiff contacts are in balance. Returns whether it found
@@ -148,7 +228,7 @@ bool FrictionSolver::find_balance(Vector& y, double tolerance) {
 }
 
 bool FrictionSolver::may_go_on() const {
-  return evaluations_ < std::min(most_evaluations_, kMostEvaluations * std::ssize(rows_));
+  return evaluations_ < std::min(most_evaluations_, kMostEvaluations * std::max<std::int64_t>(1, std::ssize(rows_)));
 }
 
 Eigen::Vector3d FrictionSolver::Row::motion(const Vector& y) const {

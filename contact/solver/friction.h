@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -49,6 +50,8 @@ class FrictionSolver {
 
   /// Of each contact in a solution.
   static constexpr std::int64_t kMostEvaluations = 2000;
+  /// Contacts that share the load, unless more are needed to keep all rows.
+  static constexpr std::size_t kMostSharing = 32;
   /// Evaluations of contacts in the last solution.
   std::int64_t evaluations() const { return evaluations_; }
   /// Whether the last solution is one: otherwise its forces are not in balance with the springs.
@@ -81,7 +84,19 @@ class FrictionSolver {
     Matrix derivative;
   };
 
-  void prepare(std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
+  /// A row that may carry forces from the beginning.
+  struct Touching {
+    std::size_t row;
+    double unlike;  // square of a distance, metres, from the rows that were chosen
+  };
+
+  void choose_rows(std::span<const geometry::Displacement> displacements, double tolerance,
+                   std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
+                   std::span<const double> coefficients);
+  std::optional<std::size_t> most_violated(std::span<const geometry::Displacement> displacements, double tolerance,
+                                           std::span<const CouplingStiffness> stiffness,
+                                           std::span<const CoupledRow> rows) const;
+  void add_row(std::size_t number, std::span<const CouplingStiffness> stiffness, std::span<const CoupledRow> rows,
                std::span<const double> coefficients);
   bool find_balance(Vector& y, double tolerance);
   double stiffness_of(const Row& row) const { return penalty_ / row.response; }
@@ -91,7 +106,9 @@ class FrictionSolver {
   Balance balance_at(const Vector& y);
   double update_forces(const Vector& y);
 
-  std::vector<Row> rows_;
+  std::vector<Row> rows_;        // those that may carry forces
+  std::vector<bool> is_chosen_;  // each given row: whether it is one of them
+  std::vector<Touching> touching_;
   Vector y_wanted_;
   double penalty_ = 0.0;
   std::int64_t evaluations_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -251,6 +252,61 @@ TEST_F(OneContact, WithoutFrictionNeverPulls) {
   solve(-1e-6, 0.0);
   EXPECT_TRUE(displacements_[0].is_zero());
   EXPECT_TRUE(forces_.empty());
+}
+
+/// A ring of very many contacts on a plane, pressed by 2 N, as two finely tessellated flush faces have them.
+class FlushRing : public ::testing::Test {
+ protected:
+  static constexpr int kContacts = 2048;
+  static constexpr double kRadius = 0.01;
+  static constexpr double kCoefficient = 0.2;
+  static constexpr double kRotational = 0.1;  // Nm/rad
+
+  /// The displacement that the hand wants, besides pressing.
+  geometry::Displacement solve(const Vector3d& along, double turn_about_z) {
+    std::vector<CoupledRow> rows;
+    for (int i = 0; i < kContacts; ++i) {
+      const double angle = 2.0 * std::numbers::pi * i / kContacts;
+      CoupledRow& row = rows.emplace_back();
+      row.n = Vector3d::UnitZ();
+      row.r = {kRadius * std::cos(angle), kRadius * std::sin(angle), 0.0};
+      row.bound = 0.0;
+    }
+    const std::vector<geometry::Displacement> wanted{
+        {along - kPressed * Vector3d::UnitZ(), turn_about_z * Vector3d::UnitZ()}};
+    const std::vector<CouplingStiffness> stiffness{{kStiffness_N_per_m, kRotational}};
+    auto displacements = ProjectionSolver().project(wanted, stiffness, rows).displacements;
+    solver_.solve(wanted, stiffness, rows, std::vector<double>(rows.size(), kCoefficient), displacements, forces_);
+    EXPECT_TRUE(solver_.is_settled());
+    EXPECT_LT(solver_.evaluations(), 5 * kContacts) << "few contacts share the load";
+    double pressed = 0.0;
+    for (const RowForce& force : forces_)
+      pressed += force.normal;
+    EXPECT_NEAR(pressed, kStiffness_N_per_m * kPressed, 1e-6);
+    for (const CoupledRow& row : rows)
+      EXPECT_GT(row.velocity(std::span(displacements).first(1)), -1e-10);
+    return displacements[0];
+  }
+
+  FrictionSolver solver_;
+  std::vector<RowForce> forces_;
+};
+
+TEST_F(FlushRing, SticksWithinTheCone) {
+  const geometry::Displacement d = solve({0.9 * kCoefficient * kPressed, 0.0, 0.0}, 0.0);
+  EXPECT_LT(d.v.norm(), 1e-9);
+  EXPECT_LT(d.w.norm(), 1e-7);
+}
+
+TEST_F(FlushRing, SlidesBeyondTheCone) {
+  const geometry::Displacement d = solve({0.0, 5.0 * kCoefficient * kPressed, 0.0}, 0.0);
+  EXPECT_NEAR(d.v.y(), 4.0 * kCoefficient * kPressed, 1e-8);
+}
+
+TEST_F(FlushRing, TurnsAgainstTheTorqueOfAllItsFriction) {
+  const double most = kCoefficient * kStiffness_N_per_m * kPressed * kRadius / kRotational;  // rad
+  EXPECT_LT(std::abs(solve(Vector3d::Zero(), 0.9 * most).w.z()), 0.01 * most);
+  EXPECT_NEAR(solve(Vector3d::Zero(), 2.0 * most).w.z(), most, 0.02 * most);
 }
 
 TEST(FrictionSolver, TwoPartsHoldEachOtherByTheSameForce) {
