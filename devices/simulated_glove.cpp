@@ -6,7 +6,10 @@
 #include <string_view>
 #include <utility>
 
+#include <glissade/devices/glove_model.h>
 #include <glissade/devices/simulated_glove.h>
+
+#include "glove_model/modelled_glove.h"
 
 namespace glissade::devices {
 namespace {
@@ -77,6 +80,14 @@ void check(const SimulatedGloveParameters& p) {
   }
 }
 
+/// The wearer's parameters with the arm of the model.
+SimulatedGloveParameters of_model(SimulatedGloveParameters parameters, const GloveModel& model) {
+  validate(model);
+  parameters.arm_damping = model.wrist.damping;
+  parameters.arm_rotational_damping = model.wrist.rotational_damping;
+  return parameters;
+}
+
 }  // namespace
 
 hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept {
@@ -122,30 +133,77 @@ SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const Simul
       script_time_(script_X_WH_.first_time()) {
   check(parameters_);
   descriptor_.frozen = parameters_.frozen;
-  state_.time = script_time_;
-  state_.grip = grip_at(script_time_);
-  state_.X_WH = script_X_WH_.pose_at(script_time_);
-  q_WH_ = Eigen::Quaterniond(state_.X_WH.linear());
+  truth_.time = script_time_;
+  truth_.grip = grip_at(script_time_);
+  truth_.X_WH = script_X_WH_.pose_at(script_time_);
+  q_WH_ = Eigen::Quaterniond(truth_.X_WH.linear());
   const hands::JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
-    state_.joint_angles[i] = std::clamp(aim[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
+    truth_.joint_angles[i] = std::clamp(aim[i], descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }
+  state_ = truth_;
+}
+
+SimulatedGlove::SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters,
+                               const GloveModel& model)
+    : SimulatedGlove(std::move(script_X_WH), of_model(parameters, model)) {
+  descriptor_ = descriptor_of(model);
+  descriptor_.frozen = parameters.frozen;
+  if (model.fingers == FingerKind::kAbsent) truth_.joint_angles = {};
+  state_ = truth_;
+  modelled_ = std::make_unique<ModelledGlove>(model, truth_);
+}
+
+SimulatedGlove::SimulatedGlove(const SimulatedGlove& other)
+    : script_X_WH_(other.script_X_WH_),
+      parameters_(other.parameters_),
+      descriptor_(other.descriptor_),
+      truth_(other.truth_),
+      state_(other.state_),
+      script_time_(other.script_time_),
+      q_WH_(other.q_WH_),
+      modelled_(other.modelled_ ? std::make_unique<ModelledGlove>(*other.modelled_) : nullptr) {}
+
+SimulatedGlove::SimulatedGlove(SimulatedGlove&&) noexcept = default;
+SimulatedGlove::~SimulatedGlove() = default;
+
+SimulatedGlove& SimulatedGlove::operator=(SimulatedGlove other) noexcept {
+  script_X_WH_ = std::move(other.script_X_WH_);
+  parameters_ = std::move(other.parameters_);
+  descriptor_ = std::move(other.descriptor_);
+  truth_ = other.truth_;
+  state_ = other.state_;
+  script_time_ = other.script_time_;
+  q_WH_ = other.q_WH_;
+  modelled_ = std::move(other.modelled_);
+  return *this;
 }
 
 GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace) noexcept {
+  if (modelled_) modelled_->hear(newest, truth_.time);
+  const GloveCommand& command = modelled_ ? modelled_->command().values() : newest.values();
+  const std::chrono::nanoseconds heard_at = modelled_ ? modelled_->heard_at() : truth_.time;
+  const double arm = !modelled_ || modelled_->model().wrist.is_grounded ? 1.0 : 0.0;
   for (std::chrono::nanoseconds passed{0}; passed < dt;) {
     const std::chrono::nanoseconds now = std::min(dt - passed, kLargestStep);
+    const std::chrono::nanoseconds age = truth_.time - heard_at;
     const double h = std::chrono::duration<double>(now).count();
-    const double share = share_of_command(passed + now / 2);
-    move_hand(h, pace, share * newest.values().f_H_W);
-    turn_hand(h, pace, share * newest.values().t_H_W);
-    move_fingers(h, share, newest.values().joint_torques);
-    state_.time += now;
+    const double share = share_of_command(age + now / 2);
+    move_hand(h, pace, arm * share * command.f_H_W);
+    turn_hand(h, pace, arm * share * command.t_H_W);
+    if (modelled_ && modelled_->fingers() != nullptr) {
+      move_modelled_fingers(now, age, share, command);
+    } else {
+      move_fingers(h, share, command.joint_torques);
+    }
+    truth_.time += now;
     script_time_ += pace == 1.0 ? now : std::chrono::nanoseconds(std::llround(pace * static_cast<double>(now.count())));
     passed += now;
   }
-  ++state_.sequence;
-  state_.grip = grip_at(script_time_);
+  ++truth_.sequence;
+  truth_.grip = grip_at(script_time_);
+  if (modelled_) modelled_->measure(truth_);
+  state_ = modelled_ ? modelled_->state() : truth_;
   return state_;
 }
 
@@ -170,11 +228,11 @@ hands::JointValues SimulatedGlove::aim_of_fingers() const noexcept {
 void SimulatedGlove::move_hand(double h, double pace, const Eigen::Vector3d& f_H_W) noexcept {
   const Eigen::Vector3d p_WScript = script_X_WH_.pose_at(script_time_).translation();
   const Eigen::Vector3d v_WScript = pace * script_X_WH_.velocity_at(script_time_).v_WB;
-  const Eigen::Vector3d sum_W = parameters_.wearer_stiffness * (p_WScript - state_.X_WH.translation()) +
-                                parameters_.wearer_damping * (v_WScript - state_.v_WH) -
-                                parameters_.arm_damping * state_.v_WH + f_H_W;
-  state_.v_WH += h / parameters_.mass * sum_W;
-  state_.X_WH.translation() += h * state_.v_WH;
+  const Eigen::Vector3d sum_W = parameters_.wearer_stiffness * (p_WScript - truth_.X_WH.translation()) +
+                                parameters_.wearer_damping * (v_WScript - truth_.v_WH) -
+                                parameters_.arm_damping * truth_.v_WH + f_H_W;
+  truth_.v_WH += h / parameters_.mass * sum_W;
+  truth_.X_WH.translation() += h * truth_.v_WH;
 }
 
 void SimulatedGlove::turn_hand(double h, double pace, const Eigen::Vector3d& t_H_W) noexcept {
@@ -183,11 +241,11 @@ void SimulatedGlove::turn_hand(double h, double pace, const Eigen::Vector3d& t_H
   const Eigen::Vector3d to_script_W = rotation_vector(q_WScript * q_WH_.conjugate());
   // The inertia is the same about every axis, so there is no gyroscopic torque.
   const Eigen::Vector3d sum_W = parameters_.wearer_rotational_stiffness * to_script_W +
-                                parameters_.wearer_rotational_damping * (w_WScript - state_.w_WH) -
-                                parameters_.arm_rotational_damping * state_.w_WH + t_H_W;
-  state_.w_WH += h / parameters_.rotational_inertia * sum_W;
-  q_WH_ = (from_rotation_vector(h * state_.w_WH) * q_WH_).normalized();
-  state_.X_WH.linear() = q_WH_.toRotationMatrix();
+                                parameters_.wearer_rotational_damping * (w_WScript - truth_.w_WH) -
+                                parameters_.arm_rotational_damping * truth_.w_WH + t_H_W;
+  truth_.w_WH += h / parameters_.rotational_inertia * sum_W;
+  q_WH_ = (from_rotation_vector(h * truth_.w_WH) * q_WH_).normalized();
+  truth_.X_WH.linear() = q_WH_.toRotationMatrix();
 }
 
 // Fingers weigh little: each approaches the equilibrium of the wearer's grip and the torque without overshoot.
@@ -196,9 +254,19 @@ void SimulatedGlove::move_fingers(double h, double share, const hands::JointValu
   const hands::JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double balance = aim[i] + share * torques[i] / parameters_.finger_stiffness;
-    double& angle = state_.joint_angles[i];
+    double& angle = truth_.joint_angles[i];
     angle = std::clamp(angle + part * (balance - angle), descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }
+}
+
+void SimulatedGlove::move_modelled_fingers(std::chrono::nanoseconds dt, std::chrono::nanoseconds age, double share,
+                                           const GloveCommand& command) noexcept {
+  FingerOrder order{.torques = command.joint_torques, .limits = &command.joint_limits, .age = age};
+  for (double& torque : order.torques)
+    torque *= share;
+  FingerDynamics& fingers = *modelled_->fingers();
+  fingers.advance(dt, aim_of_fingers(), grip_at(script_time_) % 2 == 1, order);
+  truth_.joint_angles = fingers.angles();
 }
 
 }  // namespace glissade::devices

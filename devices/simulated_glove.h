@@ -1,11 +1,13 @@
 #pragma once
 
 /// A simulated force-feedback glove, i.e. the hand of a wearer on a grounded force-feedback arm. The wearer follows a
-/// script, i.e. a given trajectory of the hand, but yields to the commanded forces. The simulation has neither threads
-/// nor clocks: the same inputs give bit-identical outputs.
+/// script, i.e. a given trajectory of the hand, but yields to the commanded forces. With a `GloveModel`, the device has
+/// the mechanics, sensors and link of the model. The simulation has neither threads nor clocks: the same inputs give
+/// bit-identical outputs.
 
 #include <chrono>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -67,7 +69,11 @@ struct SimulatedGloveParameters {
 /// and 1000 updates per second. The joint limits are the limits of the human hand.
 DeviceDescriptor simulated_glove_descriptor();
 
-/// Integrates by semi-implicit Euler in steps of at most 1 ms. Allocates only at construction. Not thread-safe.
+struct GloveModel;
+class ModelledGlove;
+
+/// Integrates by semi-implicit Euler in steps of at most 1 ms. Fingers of a model are integrated at 8 kHz. Allocates
+/// only at construction. Not thread-safe.
 class SimulatedGlove {
  public:
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
@@ -76,16 +82,38 @@ class SimulatedGlove {
   /// ms; or the times of the fingers do not ascend.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
+  /// A device of this model. The dampings of the arm, and those of the fingers if they have dynamics, are those of the
+  /// model instead of `parameters`. Throws the same, and what `validate` throws for the model.
+  SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters,
+                 const GloveModel& model);
+
+  SimulatedGlove(const SimulatedGlove& other);
+  SimulatedGlove(SimulatedGlove&& other) noexcept;
+  SimulatedGlove& operator=(SimulatedGlove other) noexcept;
+  ~SimulatedGlove();
+
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
-  /// The current state. The initial state has sequence 0 and the first time of the script.
+  /// The newest measured state that has left the link of the model, if there is a model. The initial state has sequence
+  /// 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
+
+  /// The true state of the hand, at the present time. Without a model, it is the measured state.
+  const GloveState& true_state() const noexcept { return truth_; }
+
+  /// The time since the measurement of `state()`. 0 without a model.
+  std::chrono::nanoseconds state_age() const noexcept { return truth_.time - state_.time; }
 
   /// Advances the simulation by `dt` under the command `newest`. Returns the new state, with a sequence higher by one
   /// and a time later by `dt`. For dt ≤ 0, only the sequence changes. Within a step, the command acts fully for three
   /// periods of the device and then fades within seven periods, as in a device with a watchdog against a late driver.
   /// (An envelope assumes that the command acts for 10 ms.) The wearer follows the script at `pace` times its speed,
   /// from 0 (the wearer waits) to 1.
+  ///
+  /// With a model, the device measures at its own rate, at the ends of steps, and takes a command after each
+  /// measurement. The result is the newest state that has arrived, so sequence and time may stay the same. The time of
+  /// a state is that of its measurement. A command acts from its arrival at the device, and limits of finger joints act
+  /// until `JointLimits::expiry`.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 
   /// The wearer's present time in the script.
@@ -98,13 +126,17 @@ class SimulatedGlove {
   void move_hand(double h, double pace, const Eigen::Vector3d& f_H_W) noexcept;
   void turn_hand(double h, double pace, const Eigen::Vector3d& t_H_W) noexcept;
   void move_fingers(double h, double share, const hands::JointValues& torques) noexcept;
+  void move_modelled_fingers(std::chrono::nanoseconds dt, std::chrono::nanoseconds age, double share,
+                             const GloveCommand& command) noexcept;
 
   geometry::PoseTrajectory script_X_WH_;
   SimulatedGloveParameters parameters_;
   DeviceDescriptor descriptor_;
+  GloveState truth_;
   GloveState state_;
   std::chrono::nanoseconds script_time_;
   Eigen::Quaterniond q_WH_;
+  std::unique_ptr<ModelledGlove> modelled_;  ///< null without a model
 };
 
 }  // namespace glissade::devices

@@ -36,19 +36,19 @@ void SimulatedGloveService::stop() {
 bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   const SafeCommand command = host_.newest_command(state_);
   greatest_force_ = std::max(greatest_force_, command.values().f_H_W.norm());
-  std::chrono::nanoseconds passed{0};
-  if (host_.statistics().accepted > 0) {
-    if (last_deadline_) passed = deadline - *last_deadline_;  // more than a period where deadlines were skipped
-    last_deadline_ = deadline;
-  }
+  // More than a period where deadlines were skipped.
+  const std::chrono::nanoseconds passed = last_deadline_ ? deadline - *last_deadline_ : std::chrono::nanoseconds(0);
+  last_deadline_ = deadline;
+  const bool has_server = host_.statistics().accepted > 0;
   const std::chrono::nanoseconds script_before = glove_.script_time();
-  state_ = glove_.step(passed, command, pace_for(age_of_answers(command)));
+  const std::int64_t sequence_before = state_.sequence;
+  state_ = glove_.step(passed, command, has_server ? pace_for(age_of_answers(command)) : 0.0);
   const std::chrono::nanoseconds script_passed = glove_.script_time() - script_before;
-  state_.time = deadline;  // a real glove's clock runs on, also while the wearer waits
-  send(state_);
+  state_.time = deadline - glove_.state_age();  // on the clock of the thread
+  if (state_.sequence != sequence_before) send(state_);
   if (observer_ && !observer_(state_, command)) host_.stop();
   script_time_.store(script_time() + script_passed, std::memory_order_relaxed);
-  waited_.store(waited() + passed - script_passed, std::memory_order_relaxed);
+  if (has_server) waited_.store(waited() + passed - script_passed, std::memory_order_relaxed);
   if (!should_end_.load(std::memory_order_acquire)) return true;
   constexpr int kLongestEnd = 100;  // periods; longer than any fade of this glove
   return !command.values().is_at_rest() && ++ending_ticks_ < kLongestEnd;

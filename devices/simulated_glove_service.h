@@ -1,7 +1,7 @@
 #pragma once
 
-/// A simulated glove on an LCM bus. Like a real glove, it publishes states and receives commands at 1 kHz, in a
-/// separate thread.
+/// A simulated glove on an LCM bus. Like a real glove, it publishes states and receives commands, in a separate thread
+/// of 1 kHz. A glove of a model publishes each of its own measurements once.
 
 #include <atomic>
 #include <chrono>
@@ -60,9 +60,9 @@ class SimulatedGloveService {
   LcmGloveHost host_;
   std::unique_ptr<WearersView> view_;
   SimulatedGlove glove_;
-  Observer observer_;                                      ///< may be empty
-  GloveState state_;                                       ///< as sent
-  std::optional<std::chrono::nanoseconds> last_deadline_;  ///< set once a command has arrived
+  Observer observer_;  ///< may be empty
+  GloveState state_;   ///< as sent
+  std::optional<std::chrono::nanoseconds> last_deadline_;
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
   std::atomic<std::chrono::nanoseconds> waited_{std::chrono::nanoseconds(0)};
   double greatest_force_ = 0.0;
