@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -20,6 +21,7 @@
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
+#include <glissade/devices/glove_model.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/files/csv.h>
 #include <glissade/files/file_checks.h>
@@ -44,15 +46,22 @@ constexpr const char* kGloveFooter =
     "process ends at the end of the script, or with Ctrl-C. When the force fades, the command prints the reason to\n"
     "standard error. If another glove sends under the same number, it says so there. For the columns of --record, see\n"
     "docs/file_formats.md in the sources.\n"
+    "Without --preset, the hand is on an ideal arm, and its fingers have no mass. A preset is a model of a device: "
+    "its\n"
+    "mechanics, sensors, servo loop and link. docs/glove_models.md in the sources has the keys of a model's file.\n"
     "\n"
     "Examples, with the files of 'glissade example' and a server:\n"
     "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv\n"
-    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --record felt.csv";
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --record felt.csv\n"
+    "  glissade run square_peg.yaml --seconds 4 & glissade glove --script square_peg_script.csv --preset omega_3\n"
+    "  glissade glove --presets";
 
 struct GloveOptions {
   std::string side = "right";
   LcmAddress lcm;
   std::string script;
+  std::string preset;
+  bool lists_presets = false;
   bool fingers = false;
   std::int64_t device = devices::kDefaultDevice;
   std::string record;
@@ -113,16 +122,37 @@ std::string told_of_another(std::int64_t device) {
          ", and a server hears only one of the two: give one another --device";
 }
 
+void list_presets() {
+  for (const std::string_view name : devices::glove_presets())
+    std::cout << name << ": " << devices::read_glove_model(std::string(name)).summary << '\n';
+}
+
+HandScript script_of(const GloveOptions& options) {
+  if (!options.script.empty()) return read_hand_script(options.script);
+  const Demonstration demonstration = options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
+  return parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration));
+}
+
+devices::SimulatedGlove simulated_glove(const GloveOptions& options, const HandScript& script) {
+  devices::SimulatedGloveParameters parameters = script.with_grip({});
+  parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
+      std::chrono::duration<double, std::milli>(options.frozen_ms));
+  if (options.preset.empty()) return devices::SimulatedGlove(script.X_WH, parameters);
+  return devices::SimulatedGlove(script.X_WH, parameters, devices::read_glove_model(options.preset));
+}
+
 int run(const GloveOptions& options) {
+  if (options.lists_presets) {
+    list_presets();
+    return 0;
+  }
   if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
     throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
   }
   const bool has_locked_memory = realtime::lock_memory();
+  const HandScript script = script_of(options);
+  devices::SimulatedGlove simulated = simulated_glove(options, script);
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
-  const Demonstration demonstration = options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
-  const HandScript script = options.script.empty() ? parse_hand_script(embedded_scene_script(demonstration),
-                                                                       embedded_script_name(demonstration))
-                                                   : read_hand_script(options.script);
   const std::chrono::nanoseconds duration = script.X_WH.duration();
   const StopSignal stop_signal;
   realtime::SteadyClock clock;
@@ -132,12 +162,8 @@ int run(const GloveOptions& options) {
     record.emplace(options.record);
   }
   GloveWatch watch;
-  devices::SimulatedGloveParameters parameters = script.with_grip({});
-  parameters.frozen = std::chrono::duration_cast<std::chrono::nanoseconds>(
-      std::chrono::duration<double, std::milli>(options.frozen_ms));
   const hands::HandSide side = options.side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
-  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, parameters), clock,
-                                       {.device = options.device, .side = side},
+  devices::SimulatedGloveService glove(bus, std::move(simulated), clock, {.device = options.device, .side = side},
                                        [&](const devices::GloveState& state, const devices::SafeCommand& command) {
                                          if (record) record->push(state, command);
                                          // The main thread may be held up by a reader of the output.
@@ -193,6 +219,9 @@ void add_glove_command(CLI::App& app, Command& chosen) {
                    "Time in milliseconds for which the tracker may repeat a pose bit by bit; then the force fades; "
                    "0: not checked")
       ->capture_default_str();
+  command->add_option("--preset", options->preset,
+                      "Simulate this device: a preset, see --presets, or a YAML file with a model");
+  command->add_flag("--presets", options->lists_presets, "List the presets, and do nothing else");
   CLI::Option* record =
       command->add_option("--record", options->record, "CSV file for the hand's pose and force in every period");
   command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);

@@ -192,6 +192,13 @@ TEST_F(Cli, FullDiskBehindStandardOutputExitsWithCode1) {
   }
 }
 
+TEST_F(Cli, PresetsOfGlovesAreListedWithASentenceEach) {
+  const ProgramResult result = glissade({"glove", "--presets"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.standard_output, HasSubstr("\ncamera: A bare hand"));
+  EXPECT_THAT(result.standard_output, HasSubstr("\nomega_3: Force Dimension"));
+}
+
 TEST_F(Cli, WrongUsageIsRefused) {
   expect_refused({"info", mesh, "demo"}, {"demo"});
   expect_refused({"demo", "--offline", "info", mesh}, {"info"});
@@ -209,6 +216,7 @@ TEST_F(Cli, WrongUsageIsRefused) {
   }
   expect_refused({"collide", mesh, mesh, "--poses", poses, "--out", folder.path("no/out.csv")}, {"no/out.csv"});
   expect_refused({"glove", "--side", "up"}, {"--side: 'up' is unknown; known are left, right\n"});
+  expect_refused({"glove", "--preset", "omega_4"}, {"'omega_4' is neither a file nor a preset (did you mean 'omega_"});
   expect_refused({"glove", "--script"}, {"--script: a value is missing\n"});
   expect_refused({"slide", mesh, "--part"}, {"--part: a value is missing\n"});
   expect_refused({"slide", mesh, "--part", "a", "--part", "b"}, {"--part: takes one value, not 2\n"});
