@@ -10,6 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glissade/devices/glove_model.h>
 #include <glissade/devices/simulated_glove_service.h>
 
 #include "eventually.h"
@@ -85,6 +86,22 @@ TEST_F(SimulatedGloveServiceTest, WaitsForTheFirstCommandAndThenRunsByTime) {
   const std::vector<nanoseconds> times = state_times();
   for (std::size_t i = 2; i < times.size(); ++i)
     EXPECT_EQ(times[i] - times[i - 2], milliseconds(5)) << "at " << times[i].count() << " ns";
+}
+
+// The hand waits for a server, but the device measures on.
+TEST_F(SimulatedGloveServiceTest, GloveOfAModelSendsEachMeasurementOnce) {
+  DrowsyClock clock;
+  GloveModel model;
+  model.update_rate = 100.0;
+  model.measurement_delay = 0.005;
+  SimulatedGloveService service(bus, SimulatedGlove(geometry::PoseTrajectory({geometry::TimedPose{}}), {}, model),
+                                clock);
+  ASSERT_TRUE(eventually([this] { return state_times().size() >= 10; }));
+  EXPECT_EQ(service.script_time(), nanoseconds(0));
+  service.stop();
+  const std::vector<nanoseconds> times = state_times();
+  for (std::size_t i = 1; i < times.size(); ++i)
+    EXPECT_EQ(times[i] - times[i - 1], milliseconds(10)) << "at " << times[i].count() << " ns";
 }
 
 // What a wearer sees is as old as the contacts, and since then it has become older.
