@@ -249,18 +249,25 @@ std::string real_time_warning(const Session& session) {
   if (!session.real_time) return "";
   constexpr double kOld_ms = 50.0;
   const contact::CallStatistics& calls = session.calls;
+  const std::string friction =
+      calls.unsettled_friction > 0
+          ? formatted("; friction did not settle in %lld steps, which costs time: try a scene without it",
+                      static_cast<long long>(calls.unsettled_friction))
+          : "";
   if (2 * calls.ended_early > calls.calls) {
     return formatted(
-        "the simulation did not keep up with real time: %lld of its %lld calls ended early, so the visible "
-        "parts lagged behind the hands",
-        static_cast<long long>(calls.ended_early), static_cast<long long>(calls.calls));
+               "the simulation did not keep up with real time: %lld of its %lld calls ended early, so the visible "
+               "parts lagged behind the hands",
+               static_cast<long long>(calls.ended_early), static_cast<long long>(calls.calls)) +
+           friction;
   }
   const double age_ms = 1e-3 * in_microseconds(session.real_time->server.contact_set_age.quantile(0.99));
   if (age_ms > kOld_ms) {
     return formatted(
-        "the machine did not keep up with real time: one contact set in a hundred was more than %.0f ms old, so what "
-        "was visible lagged behind the gloves",
-        age_ms);
+               "%s did not keep up with real time: one contact set in a hundred was more than %.0f ms old, so what "
+               "was visible lagged behind the gloves",
+               friction.empty() ? "the machine" : "the simulation", age_ms) +
+           friction;
   }
   return "";
 }

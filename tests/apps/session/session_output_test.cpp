@@ -118,7 +118,11 @@ TEST(SessionText, WarnsIfAnswersWereOldInRealTime) {
   session.real_time->server.contact_set_age.record(std::chrono::milliseconds(49));
   EXPECT_EQ(real_time_warning(session), "");
   session.real_time->server.contact_set_age.record(std::chrono::milliseconds(104));
-  EXPECT_THAT(real_time_warning(session), HasSubstr("one contact set in a hundred was more than 10"));
+  EXPECT_THAT(real_time_warning(session),
+              HasSubstr("the machine did not keep up with real time: one contact set in a hundred was more than 10"));
+  session.calls.unsettled_friction = 7;
+  EXPECT_THAT(real_time_warning(session), HasSubstr("the simulation did not keep up")) << "the scene is the reason";
+  EXPECT_THAT(real_time_warning(session), HasSubstr("friction did not settle in 7 steps"));
 }
 
 TEST(SessionText, BeginsWithWhetherTheGoalWasReached) {
