@@ -1,0 +1,83 @@
+#pragma once
+
+/// A glove of Dynamixel servos, such as the DOGlove: servos drive some joints of the hand and measure them. A board of
+/// potentiometers may measure more joints.
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glissade/bridges/byte_stream.h>
+#include <glissade/bridges/wire.h>
+#include <glissade/devices/glove_device.h>
+#include <glissade/realtime/clock.h>
+
+namespace glissade::bridges {
+
+/// A servo that drives a joint.
+struct DynamixelServo {
+  int id = 1;          ///< 0 to 252
+  int joint = 0;       ///< index in `hands::kJointNames`
+  double ratio = 1.0;  ///< rad of the joint per rad of the horn, by gears or a linkage; negative: they turn oppositely
+  double zero = 0.0;   ///< angle of the horn while the joint angle is 0, rad; whole turns do not matter
+  double torque_per_current = 0.0;  ///< Nm/A at the horn; 0: from the data sheet
+  double max_current = 0.5;         ///< largest current, A
+};
+
+/// A potentiometer of the measuring board that measures a joint.
+struct MeasuredJoint {
+  int channel = 0;     ///< 0 to 15
+  int joint = 0;       ///< index in `hands::kJointNames`
+  double ratio = 1.0;  ///< rad of the joint per rad of the potentiometer
+  double zero = 0.0;   ///< angle of the potentiometer while the joint angle is 0, rad
+};
+
+/// A hand of servos of one model on one bus, and what is measured besides.
+struct DynamixelHand {
+  std::string name = "Dynamixel hand";
+  std::string model = "XL330-M288";  ///< also XL330-M077, XC330-M288 and XC330-M181
+  std::vector<DynamixelServo> servos;
+  std::vector<MeasuredJoint> measured;
+  double baud_rate = 3e6;                                           ///< of the bus, bits per second
+  std::chrono::nanoseconds period{std::chrono::milliseconds(2)};    ///< of measurements and commands
+  std::chrono::nanoseconds patience{std::chrono::milliseconds(5)};  ///< longest latency of the serial adapter
+  /// A servo that hears nothing for so long stops by itself. Rounded to steps of 20 ms, from 20 ms to 2.54 s.
+  std::chrono::nanoseconds watchdog{std::chrono::milliseconds(60)};
+  double max_stiffness = 5.0;  ///< largest stiffness of a joint limit, Nm/rad
+  int position_d_gain = 0;     ///< register Position D Gain
+  /// The current (A) for which one count of the register Position P Gain asks at a position error of one count. The
+  /// data sheet gives only the factor 1/128; the rest is an assumption, so measure it where stiffness matters.
+  double current_per_gain = 1e-3 / 128.0;
+  bool has_fast_read = false;  ///< read with one packet from all servos; needs firmware 46
+};
+
+/// The DOGlove: five servos, ids 0 to 4, at the outer joints of thumb to little finger, and the flexion joints of its
+/// measuring board. The zero angles and ratios of each glove must be measured. Source: github.com/TEA-Lab/DOGlove.
+DynamixelHand doglove();
+
+/// Throws std::invalid_argument, naming the hand and the field, if a number is out of range, a model or joint does not
+/// exist, or two servos share an id or two entries a joint.
+void validate(const DynamixelHand& hand);
+
+/// What the hand announces: the joints, and limits from the numbers of its servos. Throws what `validate` throws.
+devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand);
+
+/// The wire to a hand. `bus` leads to the servos; `board` to the measuring board, or is null without measured joints.
+/// Throws what `validate` throws; std::invalid_argument if a line is missing.
+///
+/// Opening sets up each servo: its torque is off, then it holds a goal position with a cap of current (operating mode
+/// 5), and its bus watchdog runs. Settings in EEPROM are written only where they differ.
+///
+/// A joint limit is held by the servo itself: the goal position is the limit, the cap of current its largest torque,
+/// and the gain its stiffness. A servo also pulls toward its goal. So the cap is 0 while the joint is more than the
+/// gear's backlash inside its range, and the torque is off farther inside. Damping of limits is not used.
+std::unique_ptr<Wire> make_dynamixel_wire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus,
+                                          std::shared_ptr<ByteStream> board = nullptr,
+                                          std::shared_ptr<realtime::Clock> clock = nullptr);
+
+/// Turns the torque of all servos off, on a line that is open, without waiting for answers. For a process that watches
+/// over the bridge: a servo whose bus watchdog has expired holds its place, with up to its cap of current.
+void release_servos(const DynamixelHand& hand, ByteStream& bus) noexcept;
+
+}  // namespace glissade::bridges
