@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <functional>
+#include <utility>
 
 #include "dynamixel/emulated_device.h"
 #include "dynamixel/measuring_board.h"
@@ -16,8 +17,8 @@ class EmulatedBoard final : public EmulatedDevice {
  public:
   using Angles = std::array<double, kBoardChannels>;
 
-  /// `angles` returns the angles of the potentiometers (rad) at each frame.
-  EmulatedBoard(std::function<Angles()> angles, std::chrono::nanoseconds period)
+  /// `angles` returns the angles of the potentiometers (rad) at the time of a frame.
+  EmulatedBoard(std::function<Angles(std::chrono::nanoseconds)> angles, std::chrono::nanoseconds period)
       : angles_(std::move(angles)), period_(period), next_(period) {}
 
   void receive(std::string_view, std::chrono::nanoseconds) override {}
@@ -32,7 +33,7 @@ class EmulatedBoard final : public EmulatedDevice {
  private:
   BoardFrame frame() const {
     constexpr std::uint32_t kReference_uV = 3'300'000;
-    const Angles angles = angles_();
+    const Angles angles = angles_(next_);
     BoardFrame result{.reference_uV = kReference_uV,
                       .time_stamp = static_cast<std::uint16_t>(next_ / std::chrono::milliseconds(1) % 65536)};
     for (std::size_t i = 0; i < kBoardChannels; ++i)
@@ -40,7 +41,7 @@ class EmulatedBoard final : public EmulatedDevice {
     return result;
   }
 
-  std::function<Angles()> angles_;
+  std::function<Angles(std::chrono::nanoseconds)> angles_;
   std::chrono::nanoseconds period_;
   std::chrono::nanoseconds next_;
 };

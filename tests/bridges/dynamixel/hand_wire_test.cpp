@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <glissade/bridges/dynamixel_emulation.h>
+
 #include "dynamixel/emulated_board.h"
 #include "hand_fixture.h"
 
@@ -179,7 +181,8 @@ TEST_F(HandOfServos, FastReadingMeasuresTheSame) {
 TEST_F(HandOfServos, BoardMeasuresMoreJoints) {
   EmulatedBoard::Angles angles{};
   angles[6] = 2.0;
-  const auto board = std::make_shared<EmulatedBoard>([&angles] { return angles; }, milliseconds(4));
+  const auto board =
+      std::make_shared<EmulatedBoard>([angles](std::chrono::nanoseconds) { return angles; }, milliseconds(4));
   DynamixelHand hand = two_fingers();
   constexpr int kIndexMcp = 4;
   hand.measured = {{.channel = 6, .joint = kIndexMcp, .ratio = -1.0, .zero = 2.5}};
@@ -188,6 +191,18 @@ TEST_F(HandOfServos, BoardMeasuresMoreJoints) {
   run_for(milliseconds(50));
   EXPECT_NEAR(state_.joint_angles[kIndexMcp], 0.5, 1e-5);
   EXPECT_NEAR(state_.joint_angles[kIndexPip], 0.0, kPositionUnit_rad);
+}
+
+TEST_F(HandOfServos, DogloveCanBeEmulated) {
+  const EmulatedDynamixelHand emulated = emulate(doglove(), {.cycle = std::chrono::seconds(0)}, clock_);
+  const auto wire = make_dynamixel_wire(doglove(), emulated.bus, emulated.board, clock_);
+  wire->open();
+  devices::GloveState state;
+  for (int i = 0; i < 500; ++i)
+    wire->read(state);
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  EXPECT_NEAR(state.joint_angles[4], 0.8 * 90 * kDegree, 1e-3) << "index_mcp, measured by the board";
+  EXPECT_NEAR(state.joint_angles[6], 0.8 * 90 * kDegree, 1e-3) << "index_dip, measured by a servo";
 }
 
 }  // namespace
