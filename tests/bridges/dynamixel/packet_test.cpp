@@ -133,8 +133,9 @@ TEST_F(DamagedLine, HeadInGarbageIsSkipped) {
 }
 
 TEST_F(DamagedLine, PacketAfterACutPacketIsFoundAtOnce) {
-  for (std::size_t size = 1; size < bytes_.size(); ++size)
-    EXPECT_EQ(decoded(bytes_.substr(0, size) + bytes_ + bytes_).size(), 2U) << "after " << size << " bytes";
+  const std::string long_one = encode({2, Instruction::kStatus, std::string(60, 'x')});
+  for (std::size_t size = 1; size < long_one.size(); ++size)
+    EXPECT_EQ(decoded(long_one.substr(0, size) + bytes_), std::vector{packet_}) << "after " << size << " bytes";
 }
 
 TEST_F(DamagedLine, EachWrongBitIsNoticed) {
