@@ -65,7 +65,9 @@ struct EnvelopeSettings {
 
   // Limits that the device holds:
   double limits_start_J = 20e-3;  ///< for springs that gain energy as limits move. Less: a late limit stays soft
-  double limits_most_J = 40e-3;   ///< more: a longer rattle until the limits stand still
+  /// The largest account is that of the largest torque on this way, rad: what five pressed springs store, and lose in
+  /// an interruption. More: a longer rattle until the limits stand still. Less: fingers that press lose their limits.
+  double limits_most_rad = 0.5;
   double limits_refill_W = 5e-3;
   double limits_rest_refill_W = 0.2;  ///< while all fingers rest. Less: limits return late after an interruption
   double resting_rad_per_s = 0.5;     ///< a slower finger rests

@@ -41,7 +41,7 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
   observe_rates(angles, dt);
   const bool are_resting = resting_for_s_ > kEnvelope.rested_s;
   const double refill_W = are_resting ? kEnvelope.limits_rest_refill_W : kEnvelope.limits_refill_W;
-  energy_ = std::min(kEnvelope.limits_most_J, energy_ + refill_W * dt);
+  energy_ += refill_W * dt;
   JointLimits next;
   next.expiry = longest_expiry_;
   for (std::size_t j = 0; j < hands::kJoints; ++j) {
@@ -58,7 +58,9 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
     if (is_absent(limit)) limit = {};
     if (tighten(limit, last, angles[j], dt)) reasons.rate_limited = true;
   }
-  if (!is_fading && pay(angles, next)) reasons.energy_limited = true;
+  if (pay(angles, next)) reasons.energy_limited = true;
+  energy_ =
+      std::min(energy_, std::max(kEnvelope.limits_start_J, kEnvelope.limits_most_rad * descriptor_.max_joint_torque));
   last_ = next;
   return last_;
 }
@@ -114,7 +116,7 @@ bool FingerLimits::pay(const hands::JointValues& angles, JointLimits& next) noex
   };
   const double wanted = gain_of(1.0);
   if (wanted <= energy_) {
-    energy_ = std::min(kEnvelope.limits_most_J, energy_ - wanted);
+    energy_ -= wanted;
     return false;
   }
   double share = 0.0;

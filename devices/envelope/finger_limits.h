@@ -14,7 +14,7 @@ namespace glissade::devices {
 ///
 /// A limit that stands still is a spring, which gives back no more than the finger has put in. Only a limit that moves
 /// against a finger gives energy: the difference of what its spring stores. The account begins with 20 mJ, and gets
-/// back what limits give up that move away, and 5 mW, to at most 40 mJ.
+/// back what limits give up that move away or fade, and 5 mW, to at most the largest torque times 0.5 rad.
 class FingerLimits {
  public:
   explicit FingerLimits(const DeviceDescriptor& descriptor, double period_s);

@@ -198,6 +198,19 @@ TEST_F(LimitsInEnvelope, OpenInAFadeAndReturnSoftly) {
   EXPECT_NEAR(torque(), pressed, 1e-12);
 }
 
+// States that come late again and again must not use up the force of a finger that presses.
+TEST_F(LimitsInEnvelope, ManyShortInterruptionsCostNothing) {
+  hold(kAtHalf, 300);
+  state_.joint_angles[kIndexMcp] = 0.65;
+  for (int i = 0; i < 50; ++i) {
+    state_.is_enabled = false;
+    hold(kAtHalf, 20);
+    state_.is_enabled = true;
+    hold(kAtHalf, 300);
+    ASSERT_NEAR(torque(), -0.3, 1e-12) << i;
+  }
+}
+
 TEST_F(LimitsInEnvelope, NumbersThatAreNoneOpenAllLimits) {
   hold(kAtHalf, 300);
   JointLimit bad = kAtHalf;
