@@ -1,4 +1,5 @@
 #include <thread>
+#include <utility>
 
 #include <glissade/bridges/bridge.h>
 #include <glissade/realtime/clock.h>
@@ -6,11 +7,14 @@
 namespace glissade::bridges {
 namespace {
 
-/// Exchanges states and commands until the wire fails, which it throws, or the bridge is to end.
+/// Exchanges states and commands until the wire fails, which it throws, or the bridge is to end. Calls `greet` at the
+/// first state.
 void exchange(Wire& wire, devices::LcmGloveHost& host, devices::GloveState& state, BridgeStatistics& statistics,
-              const std::function<bool()>& goes_on) {
+              const std::function<bool()>& goes_on, const std::function<void()>& greet) {
+  bool is_first = true;
   while (goes_on()) {
     if (wire.read(state)) {
+      if (std::exchange(is_first, false)) greet();
       ++state.sequence;
       ++statistics.states;
       host.publish(state);
@@ -27,15 +31,19 @@ BridgeStatistics run_bridge(Wire& wire, const std::shared_ptr<devices::LcmBus>& 
   devices::LcmGloveHost host(bus, wire.descriptor(), options.link);
   devices::GloveState state;
   BridgeStatistics statistics;
-  bool has_failed = false;
+  std::uint64_t failures = 0;  // since the last state
+  const auto greet = [&] {
+    say(statistics.states > 0 ? "the device is back" : "the device is connected");
+    failures = 0;
+  };
   while (goes_on()) {
     try {
       wire.open();
-      say(has_failed ? "the device is back" : "the device is connected");
-      exchange(wire, host, state, statistics, goes_on);
+      exchange(wire, host, state, statistics, goes_on, greet);
     } catch (const WireError& error) {
-      if (!has_failed || statistics.errors % 20 == 0) say(error.what());
-      has_failed = true;
+      constexpr std::uint64_t kSaidAgain = 20;
+      if (failures % kSaidAgain == 0) say(error.what());
+      ++failures;
       ++statistics.errors;
       wire.release();
       const auto again = std::chrono::steady_clock::now() + options.reopen_after;

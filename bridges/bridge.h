@@ -26,8 +26,9 @@ struct BridgeStatistics {
 };
 
 /// Runs until `goes_on` returns false, which is asked once a period. A wire that fails is released, and opened anew
-/// after a pause, as often as needed; `say` receives a sentence for each failure and each return. At the end the wire
-/// is released. Throws what `LcmGloveHost` throws.
+/// after a pause, as often as needed. `say` receives a sentence at the first state, at a failure, again at every
+/// twentieth of a row, and at the first state after a failure. At the end the wire is released. Throws what
+/// `LcmGloveHost` throws.
 BridgeStatistics run_bridge(Wire& wire, const std::shared_ptr<devices::LcmBus>& bus, const BridgeOptions& options,
                             const std::function<bool()>& goes_on, const std::function<void(const std::string&)>& say);
 

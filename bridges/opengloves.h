@@ -1,0 +1,32 @@
+#pragma once
+
+/// Terms of OpenGloves, the wire of LucidGloves and its kin, for the bridge and for the emulator.
+
+#include <array>
+#include <cstddef>
+
+namespace glissade::bridges {
+
+inline constexpr std::size_t kFingers = 5;
+
+/// One number for each finger, from the thumb to the little finger. A curl is 0 for a finger that is open, and 1 for
+/// one that is closed.
+using FingerValues = std::array<double, kFingers>;
+
+inline constexpr unsigned kOpenGlovesBaudRate = 115200;
+inline constexpr unsigned short kOpenGlovesTcpPort = 65432;
+
+/// How a glove writes its lines. A glove understands lines of its own encoding only.
+enum class OpenGlovesEncoding {
+  kAlpha,   ///< letters with numbers: A1024B0C17D0E4095F2047G2047P0
+  kLegacy,  ///< 13 numbers: 1024&0&17&0&4095&2047&2047&0&0&0&0&0&0
+};
+
+/// The numbers that the sensor of a finger gives. The firmware of LucidGloves scales what it has seen since its start
+/// to the whole range of the board's converter: 0 to 4095 of an ESP32, 0 to 1023 of an AVR.
+struct SensorRange {
+  double open = 0.0;
+  double closed = 4095.0;  ///< differs from `open`; may be less
+};
+
+}  // namespace glissade::bridges

@@ -1,0 +1,61 @@
+#pragma once
+
+/// The wire to a glove with the firmware of LucidGloves, or one that speaks OpenGloves.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <Eigen/Geometry>
+
+#include <glissade/bridges/opengloves.h>
+#include <glissade/bridges/wire.h>
+
+namespace glissade::bridges {
+
+struct OpenGlovesOptions {
+  std::string port;  ///< "/dev/ttyUSB0", "tcp:HOST" or "tcp:HOST:PORT"
+  std::array<SensorRange, kFingers> sensors{};
+  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();  ///< where the hand is: the glove does not measure it
+};
+
+/// What such a glove renders: limits of the fingers, and no force on the hand.
+devices::DeviceDescriptor opengloves_descriptor();
+
+/// What passes over the wire, for people.
+struct OpenGlovesTraffic {
+  std::optional<OpenGlovesEncoding> encoding;  ///< none before the first state
+  FingerValues curls{};
+  std::array<int, kFingers> limits{};  ///< 0: free, 1000: the finger is to stay open
+  std::uint64_t states = 0;            ///< since the wire was opened
+  std::uint64_t refused = 0;           ///< lines that were no states
+};
+
+/// Finds the encoding by itself. Sends all five limits, once for each state, because the firmware reads no more. The
+/// firmware keeps the last limits for ever: a second process, which the constructor starts, releases the glove when
+/// this one is killed or hangs (`ReleaseGuard`).
+class OpenGlovesWire final : public Wire {
+ public:
+  /// Throws what `SerialStream` and `ReleaseGuard` throw, and std::invalid_argument for a sensor whose range is empty
+  /// or not finite.
+  explicit OpenGlovesWire(OpenGlovesOptions options);
+  /// Releases.
+  ~OpenGlovesWire() override;
+
+  const devices::DeviceDescriptor& descriptor() const noexcept override;
+  void open() override;
+  bool read(devices::GloveState& state) override;
+  void write(const devices::SafeCommand& command) override;
+  void release() noexcept override;
+
+  const OpenGlovesTraffic& traffic() const noexcept;
+
+ private:
+  struct Glove;
+
+  std::unique_ptr<Glove> glove_;
+};
+
+}  // namespace glissade::bridges
