@@ -54,6 +54,8 @@ int parse_and_run(int argc, char** argv) {
   add_log_command(app, chosen);
   add_export_command(app, chosen);
   add_glove_command(app, chosen);
+  add_bridge_command(app, chosen);
+  add_emulate_command(app, chosen);
   add_view_command(app, chosen);
   add_doctor_command(app, chosen);
   add_latency_command(app, chosen);

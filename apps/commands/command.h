@@ -52,6 +52,12 @@ void add_export_command(CLI::App& app, Command& chosen);
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);
 
+/// `glissade bridge opengloves --port PORT [--check] [--list]`
+void add_bridge_command(CLI::App& app, Command& chosen);
+
+/// `glissade emulate opengloves [--link PATH] [--tcp PORT] [--encoding alpha|legacy] [--fault NAME...]`
+void add_emulate_command(CLI::App& app, Command& chosen);
+
 /// `glissade view [SCENE] [--lcm URL] [--port N] [--fingers]`
 void add_view_command(CLI::App& app, Command& chosen);
 

@@ -1,0 +1,12 @@
+#pragma once
+
+/// The devices of `glissade bridge`.
+
+#include <glissade/apps/commands/command.h>
+
+namespace glissade::apps {
+
+/// `glissade bridge opengloves --port PORT [--device N] [--side left|right] [--check] [--list]`
+void add_bridge_opengloves(CLI::App& bridge, Command& chosen);
+
+}  // namespace glissade::apps
