@@ -127,7 +127,7 @@ TEST_F(FingerHandInKernel, GloveThatTakesLimitsGetsLimitsAndNoTorque) {
   state_.joint_angles[0] = 0.2;
   const devices::GloveState* const newest = &state_;
   devices::GloveCommand command;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 1500; ++i) {
     now_ += kTickPeriod;
     state_.time = set_.time = now_;
     ++state_.sequence;
