@@ -47,8 +47,11 @@ BridgeStatistics run_bridge(Wire& wire, const std::shared_ptr<devices::LcmBus>& 
       ++statistics.errors;
       wire.release();
       const auto again = std::chrono::steady_clock::now() + options.reopen_after;
-      while (goes_on() && std::chrono::steady_clock::now() < again)
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      while (goes_on() && std::chrono::steady_clock::now() < again) {
+        // The command fades meanwhile: none from before the failure may act on a device that is back.
+        host.newest_command(state);
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      }
     }
   }
   wire.release();

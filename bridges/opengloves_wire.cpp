@@ -84,7 +84,9 @@ struct OpenGlovesWire::Glove {
   nanoseconds last_state{0};
   nanoseconds last_sent{0};
   bool is_answer_due = false;
-  bool has_grabbed = false;  ///< the glove tells when the hand closes
+  int extra_lines = 0;  ///< sent beside the answers; the firmware reads one line for each state
+  std::optional<OpenGlovesEncoding> last_encoding;  ///< also after the wire was closed
+  bool has_grabbed = false;                         ///< the glove tells when the hand closes
 };
 
 OpenGlovesWire::OpenGlovesWire(OpenGlovesOptions options) : glove_(std::make_unique<Glove>(std::move(options))) {}
@@ -102,9 +104,14 @@ const OpenGlovesTraffic& OpenGlovesWire::traffic() const noexcept {
 }
 
 void OpenGlovesWire::open() {
+  glove_->guard->disarm();  // it had the port until now, if a release had failed
   glove_->stream.open();
   glove_->decoder = {};
+  const bool is_free = glove_->traffic.is_free;
   glove_->traffic = {};
+  glove_->traffic.is_free = is_free;
+  glove_->extra_lines = 0;
+  if (glove_->last_encoding) glove_->stream.write(release_lines(*glove_->last_encoding));
   glove_->last_state = glove_->clock.now();
 }
 
@@ -125,7 +132,7 @@ bool OpenGlovesWire::read(devices::GloveState& state) {
 void OpenGlovesWire::Glove::take(const GloveLine& line, devices::GloveState& state) {
   last_state = clock.now();
   if (traffic.encoding != line.encoding) {
-    traffic.encoding = line.encoding;
+    traffic.encoding = last_encoding = line.encoding;
     protect();
   }
   traffic.states = decoder.states();
@@ -174,8 +181,14 @@ void OpenGlovesWire::write(const devices::SafeCommand& command) {
   bool is_freer = false;
   for (std::size_t f = 0; f < kFingers; ++f)
     is_freer = is_freer || limits[f] < glove_->traffic.limits[f];
-  const bool is_due = std::exchange(glove_->is_answer_due, false) || is_freer || is_reminder_due;
-  if (!is_due) return;
+  const bool is_answer = std::exchange(glove_->is_answer_due, false);
+  if (is_freer && !is_answer) ++glove_->extra_lines;
+  if (is_answer && !is_freer && glove_->extra_lines > 0) {
+    --glove_->extra_lines;  // the firmware still has an earlier line to read
+    return;
+  }
+  if (!is_answer && !is_freer && !is_reminder_due) return;
+  glove_->traffic.is_free = false;
   glove_->stream.write(limit_line(*glove_->traffic.encoding, limits));
   glove_->traffic.limits = limits;
   glove_->last_sent = now;
@@ -183,11 +196,13 @@ void OpenGlovesWire::write(const devices::SafeCommand& command) {
 
 void OpenGlovesWire::release() noexcept {
   try {
-    if (glove_->stream.is_open() && glove_->traffic.encoding)
-      glove_->stream.write(release_lines(*glove_->traffic.encoding));
-  } catch (const std::exception&) {  // then the glove is gone, or nobody can reach it
+    if (glove_->stream.is_open() && glove_->last_encoding) {
+      glove_->stream.write(release_lines(*glove_->last_encoding));
+      glove_->traffic.is_free = true;
+    }
+  } catch (const std::exception&) {  // then the second process tries
   }
-  glove_->guard->disarm();
+  if (glove_->traffic.is_free) glove_->guard->disarm();
   glove_->stream.close();
   glove_->traffic.encoding.reset();
   glove_->traffic.limits = {};

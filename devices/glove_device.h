@@ -97,7 +97,7 @@ double stored_energy(const JointLimit& limit, double angle) noexcept;
 /// One limit per joint, in the order of `hands::kJointNames`.
 struct JointLimits {
   std::array<JointLimit, hands::kJoints> joints{};
-  /// A device that has heard nothing for so long opens all limits. The default is the watchdog of a device of 1 kHz.
+  /// A device that has heard nothing for so long opens all limits. The envelope sets it by the rate of the device.
   std::chrono::nanoseconds expiry{std::chrono::milliseconds(10)};
 
   bool operator==(const JointLimits&) const = default;

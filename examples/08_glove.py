@@ -25,7 +25,8 @@ def newest_command(newest):
         except BlockingIOError:
             return newest
         command = glove_command_t.decode(body) if channel == b"GLOVE_COMMAND" else None
-        if command and (command.device, command.glove_session) == (DEVICE, SESSION):
+        is_ours = command and (command.device, command.glove_session) == (DEVICE, SESSION)
+        if is_ours and newest.session in (0, command.session):  # no second server
             newest = command
 
 def message_of(kind, **fields):

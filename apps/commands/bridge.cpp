@@ -9,8 +9,8 @@ namespace {
 constexpr const char* kBridgeFooter =
     "A bridge joins a device to the link between gloves and haptic servers: the server ('glissade run') sees a glove\n"
     "as any other. The bridge opens the port again when the device was unplugged. It lets go of the hand when it "
-    "ends,\n"
-    "however it ends.\n"
+    "ends\n"
+    "or is killed.\n"
     "\n"
     "Examples:\n"
     "  glissade bridge opengloves --list\n"

@@ -133,9 +133,11 @@ int run(const BridgeOptions& options) {
   const bridges::BridgeStatistics statistics =
       bridges::run_bridge(wire, bus, {.link = {.device = options.device, .side = side}}, goes_on_and_shows, say);
   line.show({});
+  const bool is_free = wire.traffic().is_free;
   std::cout << "glissade bridge: " << statistics.states << " states, the wire failed " << statistics.errors
-            << " times; the fingers are free\n";
-  return 0;
+            << " times; "
+            << (is_free ? "the fingers are free\n" : "the glove was not reached at the end: switch it off\n");
+  return is_free ? 0 : 1;
 }
 
 }  // namespace

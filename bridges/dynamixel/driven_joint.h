@@ -3,6 +3,7 @@
 /// A joint and its servo, as the wire knows them.
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,8 +31,8 @@ struct DrivenJoint {
   std::size_t joint;
   JointScale scale;
   LimitHolder holder;
-  double angle = 0.0;  // rad
-  double rate = 0.0;   // rad/s
+  double angle = std::numeric_limits<double>::quiet_NaN();  // rad; not measured yet
+  double rate = 0.0;                                        // rad/s
   HoldGoal goal;
   bool has_torque = false;           // what was sent
   std::optional<std::int64_t> gain;  // what was sent

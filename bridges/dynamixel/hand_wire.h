@@ -24,6 +24,8 @@ class DynamixelWire final : public Wire {
  public:
   DynamixelWire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus, std::shared_ptr<ByteStream> board,
                 std::shared_ptr<realtime::Clock> clock);
+  /// Releases.
+  ~DynamixelWire() override { release(); }
 
   const devices::DeviceDescriptor& descriptor() const noexcept override { return descriptor_; }
   void open() override;

@@ -3,6 +3,7 @@
 /// The limits of finger joints on their way to a device which holds them by itself.
 
 #include <chrono>
+#include <optional>
 
 #include "envelope/fade.h"
 #include "envelope/forces.h"
@@ -15,6 +16,8 @@ namespace glissade::devices {
 /// A limit that stands still is a spring, which gives back no more than the finger has put in. Only a limit that moves
 /// against a finger gives energy: the difference of what its spring stores. The account begins with 20 mJ, and gets
 /// back what limits give up that move away or fade, and 5 mW, to at most the largest torque times 0.5 rad.
+/// Once all fingers have rested for 0.2 s, it gets 0.2 W, so that limits return to fingers that went into an object
+/// during an interruption.
 class FingerLimits {
  public:
   explicit FingerLimits(const DeviceDescriptor& descriptor, double period_s);
@@ -27,15 +30,19 @@ class FingerLimits {
   JointLimit within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept;
   bool tighten(JointLimit& limit, const JointLimit& last, double angle, double dt) const noexcept;
   void observe_rates(const hands::JointValues& angles, double dt) noexcept;
-  bool pay(const hands::JointValues& angles, JointLimits& next) noexcept;
+  void remember(const hands::JointValues& angles) noexcept;
+  void settle_fade(const hands::JointValues& angles) noexcept;
+  bool pay(const hands::JointValues& angles, JointLimits& next, double dt) noexcept;
 
   const DeviceDescriptor& descriptor_;
   double stiffness_;    // Nm/rad, at most
   double torque_rate_;  // Nm/s
   double fade_s_;
-  std::chrono::nanoseconds longest_expiry_;
+  std::chrono::nanoseconds expiry_;
   double energy_;  // J
   JointLimits last_;
+  std::optional<JointLimits> before_fade_;
+  hands::JointValues angles_before_fade_{};
   hands::JointValues last_angles_{};
   hands::JointValues rates_{};  // rad/s, smoothed
   double resting_for_s_ = 0.0;  // all fingers

@@ -61,7 +61,9 @@ void put_command(const devices::SafeCommand& safe, tick_hand_t& message) {
 }
 
 /// Devices that take torques get no limits, and their ticks carry none.
-void put_limits(const devices::JointLimits& limits, haptic_tick_t& message) {
+void put_limits(const devices::JointLimits& limits, tick_hand_t& hand, haptic_tick_t& message) {
+  hand.has_limits = limits.any() ? 1 : 0;
+  hand.limits_expire_ns = limits.expiry.count();
   if (!limits.any()) return;
   for (const devices::JointLimit& limit : limits.joints) {
     joint_limit_t& entry = message.limits.emplace_back();
@@ -93,7 +95,7 @@ haptic_tick_t message_of(const TickRecord& record) {
     if (!record.has_state[h]) continue;
     put_state(record.states[h], hand);
     put_command(record.tick.hands[h].command, hand);
-    put_limits(record.tick.hands[h].command.values().joint_limits, message);
+    put_limits(record.tick.hands[h].command.values().joint_limits, hand, message);
   }
   for (std::size_t p = 0; p < static_cast<std::size_t>(record.part_count); ++p)
     message.ghosts.push_back(ghost_message(record.tick.ghosts.parts[p]));

@@ -198,6 +198,39 @@ TEST_F(LimitsInEnvelope, OpenInAFadeAndReturnSoftly) {
   EXPECT_NEAR(torque(), pressed, 1e-12);
 }
 
+TEST_F(LimitsInEnvelope, LimitOpensAtOnceThoughAnotherFingerHasNoEnergy) {
+  constexpr std::size_t kMiddleMcp = 7;
+  hold(kAtHalf, 300);
+  state_.joint_angles[kIndexMcp] = 0.55;
+  state_.joint_angles[kMiddleMcp] = 1.2;
+  for (int i = 0; i < 100; ++i) {
+    GloveCommand command;
+    command.joint_limits.joints[kIndexMcp] = i < 50 ? kAtHalf : JointLimit{};
+    command.joint_limits.joints[kMiddleMcp] = kAtHalf;  // deep: the account does not pay for all of it
+    now_ += milliseconds(1);
+    ++state_.sequence;
+    state_.time = command.state_time = now_;
+    safe_ = envelope_.limit(command, state_, now_);
+    EXPECT_TRUE(safe_.reasons().energy_limited || i < 20) << i;
+    const JointLimit& index = safe_.values().joint_limits.joints[kIndexMcp];
+    ASSERT_EQ(index, i < 50 ? kAtHalf : JointLimit{}) << i;
+  }
+}
+
+TEST_F(LimitsInEnvelope, TorqueTurnsAtTheDevicesRate) {
+  device_.max_joint_torque_rate = 10.0;
+  envelope_ = SafetyEnvelope(device_);
+  hold({.lower = 0.1, .stiffness = 2.0, .max_torque = 0.4}, 1000);
+  EXPECT_NEAR(torque(), 0.2, 1e-12);
+  double last = torque();
+  for (int i = 0; i < 100; ++i) {
+    tick({.upper = -0.1, .stiffness = 2.0, .max_torque = 0.4});
+    EXPECT_GE(torque(), std::min(last, 0.0) - 10.0 * 1e-3 - 1e-12) << "a torque that opens may vanish at once";
+    last = torque();
+  }
+  EXPECT_NEAR(last, -0.2, 1e-12);
+}
+
 // States that come late again and again must not use up the force of a finger that presses.
 TEST_F(LimitsInEnvelope, ManyShortInterruptionsCostNothing) {
   hold(kAtHalf, 300);
