@@ -188,7 +188,7 @@ void OpenGlovesWire::write(const devices::SafeCommand& command) {
     return;
   }
   if (!is_answer && !is_freer && !is_reminder_due) return;
-  glove_->traffic.is_free = false;
+  glove_->traffic.is_free = limits == FingerNumbers{};
   glove_->stream.write(limit_line(*glove_->traffic.encoding, limits));
   glove_->traffic.limits = limits;
   glove_->last_sent = now;

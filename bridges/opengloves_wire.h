@@ -31,7 +31,7 @@ struct OpenGlovesTraffic {
   std::array<int, kFingers> limits{};  ///< 0: free, 1000: the finger is to stay open
   std::uint64_t states = 0;            ///< since the wire was opened
   std::uint64_t refused = 0;           ///< lines that were no states
-  bool is_free = true;                 ///< no limit was sent since the last release that has reached the port
+  bool is_free = true;                 ///< the last line that the port has taken leaves all fingers free
 };
 
 /// Finds the encoding by itself. Sends all five limits, once for each state, because the firmware reads no more. The
