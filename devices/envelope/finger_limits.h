@@ -15,9 +15,9 @@ namespace glissade::devices {
 ///
 /// A limit that stands still is a spring, which gives back no more than the finger has put in. Only a limit that moves
 /// against a finger gives energy: the difference of what its spring stores. The account begins with 20 mJ, and gets
-/// back what limits give up that move away or fade, and 5 mW, to at most the largest torque times 0.5 rad.
-/// Once all fingers have rested for 0.2 s, it gets 0.2 W, so that limits return to fingers that went into an object
-/// during an interruption.
+/// back what limits give up that move away, what a fade has taken from fingers that are still there, and 5 mW, to at
+/// most the largest torque times 0.5 rad. Once all fingers have rested for 0.2 s, it gets 0.2 W, so that limits return
+/// to fingers that went into an object during an interruption.
 class FingerLimits {
  public:
   explicit FingerLimits(const DeviceDescriptor& descriptor, double period_s);

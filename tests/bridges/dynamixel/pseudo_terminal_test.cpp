@@ -56,13 +56,8 @@ TEST(PseudoTerminal, LooksLikeAPortWithServos) {
   const auto finger = std::make_shared<ElasticFinger>(1.0, 0.5, 0.025);
   const auto servos =
       std::make_shared<EmulatedBus>(std::vector<EmulatedServo>{{1, *find_model("XL330-M288"), finger}}, 3e6);
-  std::unique_ptr<PseudoTerminal> terminal;
-  try {
-    terminal = std::make_unique<PseudoTerminal>(servos);
-  } catch (const std::runtime_error& error) {
-    GTEST_SKIP() << error.what();
-  }
-  TerminalStream line(terminal->path());
+  const PseudoTerminal terminal(servos);
+  TerminalStream line(terminal.path());
   line.open();
   realtime::SteadyClock clock;
   ServoBus bus(line, clock, {.patience = std::chrono::seconds(5)});
