@@ -13,6 +13,22 @@ lane() {
   lane_seconds+=("$((SECONDS - start)) $name")
 }
 
+# build_in_gaps PRESET...: builds while the next lanes wait for clocks, sockets and a browser. The scheduler gives it only
+# what nothing else wants (SCHED_IDLE). A failure shows in the lane of the preset.
+build_in_gaps() {
+  mkdir -p build
+  setsid chrt --idle 0 bash -c 'for preset in "$@"; do ./scripts/build --with tests "$preset"; done' - "$@" \
+    >build/gaps.log 2>&1 &
+  gaps=$!
+  trap end_of_gaps EXIT
+}
+
+# The lanes that come now need the processors: they build what is not yet built.
+end_of_gaps() {
+  kill -- "-$gaps" 2>/dev/null || true
+  wait "$gaps" || true
+}
+
 # What the run has cost: the seconds of each lane, the slowest objects and tests.
 report_lanes() {
   printf '\n==== lanes\n'

@@ -216,9 +216,10 @@ TEST_P(LooseThings, AreHeldByMostReaches) {
   EXPECT_GE(held, 24) << "of " << count << ", not held:" << not_held;
 }
 
+const std::vector<Vector3d> kMisses_R{{0, 0, 0}, {0.01, 0, 0}, {-0.01, 0, 0}, {0, -0.01, 0}, {0, 0, -0.01}};
+
 INSTANTIATE_TEST_SUITE_P(Aims, LooseThings,
-                         testing::Values(Vector3d(0, 0, 0), Vector3d(0.01, 0, 0), Vector3d(-0.01, 0, 0),
-                                         Vector3d(0, -0.01, 0), Vector3d(0, 0, -0.01)));
+                         testing::ValuesIn(kMisses_R.begin(), kMisses_R.begin() + (test_support::kSanitized ? 1 : 5)));
 
 }  // namespace
 }  // namespace glissade::grasping
