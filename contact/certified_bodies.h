@@ -37,8 +37,8 @@ class CertifiedBodies {
   /// The largest of `margin()` and the margins of the obstacles.
   double greatest_margin() const;
 
-  /// Places an object or all movers at rigid poses. The path from the old poses is not examined. The pose of mover i is
-  /// X_WM[numbers[i]].
+  /// Places an object, or all movers, at given poses. The path from the old poses is not examined. The pose of mover i
+  /// is X_WM[numbers[i]].
   void place_object(std::size_t object, const Eigen::Isometry3d& X_WB);
   void place_movers(std::span<const Eigen::Isometry3d> X_WM, std::span<const std::size_t> numbers);
 

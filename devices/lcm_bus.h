@@ -92,7 +92,7 @@ class LcmBus::Subscription {
   std::int64_t id_;
 };
 
-/// A field of a message for which the message was rejected.
+/// The field that caused a message to be rejected.
 struct RefusedField {
   std::string_view name{};       ///< as in the message's type, or in `DeviceDescriptor`; empty: no field
   int index = -1;                ///< in an array; −1: the field is none

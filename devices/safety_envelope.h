@@ -26,7 +26,8 @@ class SafeCommand {
   std::chrono::nanoseconds state_age() const noexcept { return state_age_; }
   /// Energy (J) that force and torque may still give to the hand; see `SafetyEnvelope`.
   double energy() const noexcept { return energy_; }
-  /// Energy (J) that the hand has given up on request since the last interruption; see `GloveCommand::supply`.
+  /// Energy (J) that the hand has given back since the last interruption because the server asked for it; see
+  /// `GloveCommand::supply`.
   double taken() const noexcept { return taken_; }
 
  private:

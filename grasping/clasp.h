@@ -77,7 +77,7 @@ class Clasp {
 
   /// Places an object without a check. The caller must know that the object has touched nothing on its path.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
-  /// Places the chain, which moves with an object that it holds, without a check. The caller must know that the chain
+  /// Places, without a check, a chain that moves with the object that it holds. The caller must know that the chain
   /// has touched nothing on its path. A placed root is at its target, which is not deeper. So in the next call of
   /// `advance`, a link near an object touches this object unless the link's target leads away from the object.
   void carry(const Posture& posture);

@@ -42,8 +42,8 @@ struct HapticServerOptions {
   /// Number of counted ticks after which the force fades and the haptic thread ends. With 0, the thread runs until
   /// `stop`. Ticks before the first state of any device and ticks of the fade are not counted.
   std::int64_t ticks = 0;
-  /// Time before each deadline for which the haptic thread polls the clock instead of sleeping, at most half of the
-  /// period. Polling makes ticks start on time, but occupies a processor while it lasts.
+  /// How long before each deadline the haptic thread polls the clock instead of sleeping; at most half of the period.
+  /// Polling makes ticks start on time, but occupies a processor while it lasts.
   std::chrono::nanoseconds spin{0};
   /// Receives the state of each counted tick. May be empty. The haptic thread calls this function, so the function must
   /// be real-time safe. After an exception from `sink` the force fades, as after an exception of the simulation, and
@@ -117,7 +117,7 @@ class HapticServer {
   /// throws std::runtime_error with the message of `failure`.
   void run_for(std::chrono::nanoseconds longest);
   /// Like `run_for`, but without a time limit. Throws std::invalid_argument if `HapticServerOptions::ticks` is 0.
-  /// Without states of any device, this function does not return.
+  /// As long as no device sends a state, it returns only if the server fails.
   void wait();
 
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.

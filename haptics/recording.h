@@ -27,7 +27,7 @@
 
 namespace glissade::haptics {
 
-/// A request that a hand takes hold of a part or lets go.
+/// A request to a hand: take hold of a part, or let go.
 struct HoldRequest {
   std::int32_t hand = 0;
   std::int32_t part = -1;  ///< −1: the hand lets go

@@ -25,8 +25,8 @@ struct ClearanceWork {
   std::int64_t triangle_distances = 0;  ///< pairs of triangles whose distance was computed
 };
 
-/// Not thread-safe. The distance is that of the features (`geometry::MeshTopology`) of the meshes, so a vertex that is
-/// inside a flat face or a straight rim up to rounding does not count for itself.
+/// Not thread-safe. The distance is that of the features (`geometry::MeshTopology`) of the meshes, so a vertex inside a
+/// flat face or a straight rim is not measured separately. (Inside: except for rounding.)
 ///
 /// Each body keeps the pairs of triangles that were near the part in its last search. While the part moves relative to
 /// the body, a clock adds up how far any point has moved at most. A pair that was d metres apart is still apart by d
