@@ -40,8 +40,8 @@ struct Coupling {
 /// put in: b / (T/2 + t_d), with the device's damping b, the period T of the loop and the delay t_d from measurement to
 /// force. The stiffness against translation is also at most twice the Coulomb friction divided by the resolution. If
 /// the descriptor does not give the damping, b is the smallest damping with which the maker's largest stiffness is
-/// passive without a link. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997; Abbott
-/// and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
+/// passive if the link adds no delay. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems,
+/// 1997; Abbott and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept;
 

@@ -42,10 +42,10 @@ FingerHand finger_hand(const grasping::HandModel& hand);
 /// at a depth of 0.8 degrees, so a finger that presses with a smaller torque stops within this angle. Three bounds may
 /// lower it. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of the loop
 /// (at least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not
-/// report its `joint_damping`, b is the damping that the full stiffness needs without a link. The second is r / (6
-/// rad/s), because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`) lags behind a quickly tapping
-/// finger and would make it rattle. The third is twice the joint's Coulomb friction divided by the step of the measured
-/// angles, because nothing damps a finger within a step. Real-time safe.
+/// report its `joint_damping`, b is the smallest damping with which the full stiffness is passive if the link adds no
+/// delay. The second is r / (6 rad/s), because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`)
+/// lags behind a quickly tapping finger and would make it rattle. The third is twice the joint's Coulomb friction
+/// divided by the step of the measured angles, because nothing damps a finger within a step. Real-time safe.
 double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                         std::chrono::nanoseconds link_delay) noexcept;
 

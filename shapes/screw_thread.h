@@ -3,9 +3,9 @@
 /// A bolt and a nut with a right-handed metric thread. As in the basic profile of ISO 68-1, the angle between flanks is
 /// 60°, crests are flats of pitch / 8, and roots are flats of pitch / 4.
 ///
-/// The screw motion is a rotation by 2π · t about z and a translation by pitch · t along z. A nut with as many segments
-/// as the bolt touches nothing at *every* t, also if its corners lie between the bolt's corners. From each of these
-/// poses, the nut can move along z by half of the play in either direction. The bolt's facets lie inside the true
+/// The screw motion is a rotation by 2π · t about z and a translation by pitch · t along z. For every t, a nut with as
+/// many segments as the bolt is clear of the bolt, even if its corners lie between the bolt's corners. From each of
+/// these poses, the nut can move along z by half of the play in either direction. The bolt's facets lie inside the true
 /// thread. The nut's facets lie outside the true thread, with radii larger by the factor 1 / cos(π / segments). So the
 /// free displacement along z is at least the play, and at most the play + tan 30° · diameter / 2 · (π / segments)². The
 /// second term is 13 µm for the defaults. Straight edges of facets reduce the free displacement by up to 1.3 · pitch /

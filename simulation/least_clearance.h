@@ -43,8 +43,8 @@ class LeastClearance {
 
   /// Adds the next pose of the part. `moving_X_WB` has the poses of the other parts, and then of the objects that move
   /// on their own, in their order in the scene. `contacts` of the part, at this pose or near it, save work: their
-  /// triangles are near. Throws std::invalid_argument for another number of poses. Cost: mostly that of the pairs of
-  /// triangles that come as near as the least distance so far.
+  /// triangles are near. Throws std::invalid_argument if `moving_X_WB` has the wrong number of poses. Cost: mostly that
+  /// of the pairs of triangles that come as near as the least distance so far.
   void note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
             std::span<const contact::Contact> contacts);
   /// Adds the present poses of a simulation of these bodies.
