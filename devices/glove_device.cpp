@@ -8,7 +8,7 @@
 
 #include <glissade/devices/glove_device.h>
 
-#include "lcm/bad_field.h"
+#include "descriptor/bad_field.h"
 
 namespace glissade::devices {
 

@@ -5,8 +5,10 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -108,6 +110,18 @@ struct JointLimits {
     return false;
   }
 };
+
+/// A joint that turns together with others: by `way` (rad, either sign) while all of them go their whole way.
+struct JointWay {
+  std::size_t joint;  ///< index in `hands::kJointNames`
+  double way;
+};
+
+/// The share of their way that these joints, now at `angles` (rad), may go on together before a contact stops them. A
+/// limit is where its joint, if it turned alone, would close a contact. Joints that turn together close the contact
+/// earlier: when the shares of their limits that they have used up add to 1. Not positive if one is at its limit or
+/// beyond; infinite without limits.
+double way_left(std::span<const JointWay> joints, const JointLimits& limits, const hands::JointValues& angles) noexcept;
 
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {

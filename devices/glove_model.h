@@ -4,7 +4,10 @@
 /// describe devices of the market. All numbers are in SI units: N, Nm, rad, s, Hz, kg m².
 
 #include <array>
+#include <chrono>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -131,6 +134,41 @@ void validate(const GloveModel& model);
 
 /// The descriptor that the device announces, with the true numbers of the model. The model must be valid.
 DeviceDescriptor descriptor_of(const GloveModel& model);
+
+/// The fingers of a wearer in the device of a model, without the device's own loop: an emulated firmware drives the
+/// motors or the strings. Integrated at 8 kHz, deterministic. Allocates only at construction.
+class DrivenFingers {
+ public:
+  /// A number for each finger, from the thumb to the little finger.
+  using PerFinger = std::array<double, 5>;
+
+  /// Starts at rest at `angles` (rad). Fingers of kind `kJointLimit` take torques of motors, those of kind `kCurlLimit`
+  /// take strings. Throws what `validate` throws; std::invalid_argument for other kinds.
+  DrivenFingers(const GloveModel& model, const hands::JointValues& angles);
+  ~DrivenFingers();
+
+  /// The torques of the motors (Nm at the joints) from now on.
+  void set_torques(const hands::JointValues& torques) noexcept;
+  /// From now on, the servos of the strings move to where a string is taut at this sum of flexion angles (rad).
+  void set_strings(const PerFinger& taut_sums) noexcept;
+
+  /// Advances by `dt`. `aims` are the angles (rad) that the wearer, whose hand grips or is open, intends.
+  void advance(std::chrono::nanoseconds dt, const hands::JointValues& aims, bool is_closed) noexcept;
+
+  const hands::JointValues& angles() const noexcept;           ///< of the fingers, rad
+  const hands::JointValues& actuator_angles() const noexcept;  ///< rad at the joints
+  const hands::JointValues& actuator_rates() const noexcept;   ///< rad/s at the joints
+  /// The sum of the flexion angles (rad) of each finger, which its string measures.
+  PerFinger flexion_sums() const noexcept;
+
+ private:
+  struct Drive;
+
+  std::unique_ptr<Drive> drive_;
+};
+
+/// The sum of the flexion angles (rad) of each finger with these joint angles.
+DrivenFingers::PerFinger flexion_sums(const hands::JointValues& angles) noexcept;
 
 /// The names of all presets, in alphabetic order.
 std::vector<std::string_view> glove_presets();

@@ -18,6 +18,8 @@ struct FingerOrder {
   hands::JointValues torques{};         ///< Nm, for motors that exert torques
   const JointLimits* limits = nullptr;  ///< not null, for all other devices
   std::chrono::nanoseconds age{0};      ///< since the device has heard the command
+  /// Not null if the firmware knows at which sums of angles (rad) the strings are to be taut. They replace `limits`.
+  const std::array<double, 5>* taut_sums = nullptr;
 };
 
 /// `angle` (rad) in steps of `resolution`; the same angle if `resolution` is 0.

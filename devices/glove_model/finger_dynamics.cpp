@@ -73,6 +73,7 @@ void FingerDynamics::step(const hands::JointValues& aims, double grip, const Fin
     angles_[i] = joint.angle();
     rates_[i] = joint.rate();
     actuator_angles_[i] = joint.actuator_angle();
+    actuator_rates_[i] = joint.actuator_rate();
     loads_[i] = joint.link_torque() + loads.finger_torque;
   }
   ++steps_;

@@ -30,8 +30,10 @@ class FingerDynamics {
   void advance(std::chrono::nanoseconds dt, const hands::JointValues& aims, bool is_closed,
                const FingerOrder& order) noexcept;
 
-  const hands::JointValues& angles() const noexcept { return angles_; }  ///< rad
-  const hands::JointValues& rates() const noexcept { return rates_; }    ///< rad/s
+  const hands::JointValues& angles() const noexcept { return angles_; }                    ///< rad
+  const hands::JointValues& rates() const noexcept { return rates_; }                      ///< rad/s
+  const hands::JointValues& actuator_angles() const noexcept { return actuator_angles_; }  ///< rad at the joints
+  const hands::JointValues& actuator_rates() const noexcept { return actuator_rates_; }    ///< rad/s at the joints
   /// Torques of the device on the joints, Nm.
   const hands::JointValues& loads() const noexcept { return loads_; }
   /// Steps of integration so far.
@@ -48,6 +50,7 @@ class FingerDynamics {
   hands::JointValues angles_;
   hands::JointValues rates_{};
   hands::JointValues actuator_angles_;
+  hands::JointValues actuator_rates_{};
   hands::JointValues loads_{};
   std::chrono::nanoseconds rest_{0};
   std::int64_t steps_ = 0;

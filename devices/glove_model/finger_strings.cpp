@@ -19,21 +19,24 @@ FingerStrings::FingerStrings(const GloveModel& model)
   wanted_ = held_ = open_;
 }
 
-/// The driver's limit of each finger: the string becomes taut where the first limited joint reaches its limit, if the
-/// other joints stay where they are.
+/// The driver's limit of each finger: the string becomes taut where a contact closes, if the joints go on in the
+/// proportion of their ranges.
 FingerStrings::CurlValues FingerStrings::limits_of(const FingerOrder& order,
                                                    const hands::JointValues& angles) const noexcept {
+  if (order.taut_sums != nullptr) return *order.taut_sums;
   CurlValues curls = open_;
   if (order.limits == nullptr || order.age > order.limits->expiry) return curls;
   for (std::size_t f = 0; f < kFingers; ++f) {
+    hands::JointValues measured{};
+    std::array<JointWay, 3> ways{};
     double sum = 0.0;
-    for (const std::size_t joint : kFlexionsOfFingers[f])
-      sum += quantised(angles[joint], servo_.resolution);
-    for (const std::size_t joint : kFlexionsOfFingers[f]) {
-      const JointLimit& limit = order.limits->joints[joint];
-      if (limit.max_torque > 0.0)
-        curls[f] = std::min(curls[f], sum + limit.upper - quantised(angles[joint], servo_.resolution));
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const std::size_t joint = kFlexionsOfFingers[f][i];
+      measured[joint] = quantised(angles[joint], servo_.resolution);
+      sum += measured[joint];
+      ways[i] = {joint, radians(hands::kJointRanges[joint].upper_deg)};
     }
+    curls[f] = std::min(curls[f], sum + open_[f] * way_left(ways, *order.limits, measured));
   }
   return curls;
 }

@@ -8,7 +8,7 @@
 #include <glissade/lcmtypes/glove_info_t.hpp>
 #include <glissade/lcmtypes/glove_state_t.hpp>
 
-#include "lcm/bad_field.h"
+#include "descriptor/bad_field.h"
 #include "lcm/limit_message.h"
 #include "lcm/message_fields.h"
 

@@ -1,6 +1,7 @@
 /// Limits that a device holds by itself: their torque, and what the envelope lets pass.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -280,6 +281,32 @@ TEST(LimitsOnTheWire, ArriveWhole) {
   EXPECT_EQ(received.joint_limits, sent.joint_limits);
   sent.joint_limits.joints[21].upper = 6.1;
   EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kOutOfRange);
+}
+
+/// Two joints, of which the second one turns twice as far and the other way.
+constexpr std::array<JointWay, 2> kTogether{{{4, 1.0}, {5, -2.0}}};
+
+TEST(WayLeft, IsThatOfTheContactThatBothJointsClose) {
+  JointLimits limits;
+  EXPECT_EQ(way_left(kTogether, limits, {}), std::numeric_limits<double>::infinity());
+  limits.joints[4] = {.upper = 0.5, .stiffness = 1.0, .max_torque = 0.1};
+  EXPECT_NEAR(way_left(kTogether, limits, {}), 0.5, 1e-12);
+  limits.joints[5] = {.lower = -0.5, .stiffness = 1.0, .max_torque = 0.1};
+  // At a way of w, the shares are w / 0.5 and 2 w / 0.5.
+  EXPECT_NEAR(way_left(kTogether, limits, {}), 1.0 / 6.0, 1e-12);
+  limits.joints[5].max_torque = 0.0;
+  EXPECT_NEAR(way_left(kTogether, limits, {}), 0.5, 1e-12) << "no torque, no limit";
+}
+
+TEST(WayLeft, IsNotPositiveAtALimitAndBeyondIt) {
+  JointLimits limits;
+  limits.joints[4] = {.upper = 0.5, .stiffness = 1.0, .max_torque = 0.1};
+  limits.joints[5] = {.lower = -0.5, .stiffness = 1.0, .max_torque = 0.1};
+  hands::JointValues angles{};
+  angles[4] = 0.5;
+  EXPECT_EQ(way_left(kTogether, limits, angles), 0.0);
+  angles[5] = -0.7;
+  EXPECT_NEAR(way_left(kTogether, limits, angles), -0.1, 1e-12);
 }
 
 }  // namespace
