@@ -30,6 +30,7 @@ BridgeStatistics run_bridge(Wire& wire, const std::shared_ptr<devices::LcmBus>& 
                             const std::function<bool()>& goes_on, const std::function<void(const std::string&)>& say) {
   devices::LcmGloveHost host(bus, wire.descriptor(), options.link);
   devices::GloveState state;
+  state.X_WH = options.X_WH;
   BridgeStatistics statistics;
   std::uint64_t failures = 0;  // since the last state
   const auto greet = [&] {

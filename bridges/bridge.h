@@ -8,6 +8,8 @@
 #include <memory>
 #include <string>
 
+#include <Eigen/Geometry>
+
 #include <glissade/bridges/wire.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
@@ -16,6 +18,8 @@ namespace glissade::bridges {
 
 struct BridgeOptions {
   devices::LcmGloveHostOptions link;
+  /// Where the hand is, if the device does not measure it.
+  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();
   std::chrono::nanoseconds reopen_after{std::chrono::milliseconds(500)};  ///< pause after an error of the wire
 };
 

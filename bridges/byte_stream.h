@@ -9,7 +9,7 @@
 
 namespace glissade::bridges {
 
-/// One thread calls all functions.
+/// One connection at a time. One thread calls all functions.
 class ByteStream {
  public:
   virtual ~ByteStream() = default;
@@ -17,18 +17,24 @@ class ByteStream {
   /// Names the line in messages, such as "/dev/ttyUSB0".
   virtual std::string name() const = 0;
 
-  /// Opens the line, or opens it anew. Bytes that arrived earlier are dropped. Throws WireError.
+  /// Opens the line, or opens it anew. Bytes that arrived earlier are dropped. Throws WireError, which says what is
+  /// wrong and what helps.
   virtual void open() = 0;
 
   /// Closes the line. A closed line may be opened again.
   virtual void close() noexcept = 0;
 
-  /// Sends all bytes. Throws WireError if the line is closed or gone.
+  virtual bool is_open() const noexcept = 0;
+
+  /// Sends all bytes. Throws WireError if the line is closed or gone, or does not take the bytes.
   virtual void write(std::string_view bytes) = 0;
 
   /// Returns the bytes that have arrived. If there are none, waits up to `patience` for the first ones; the result is
   /// empty if none come. Throws WireError if the line is closed or gone.
   virtual std::string read(std::chrono::nanoseconds patience) = 0;
+
+  /// The descriptor of the system for the open line, which another process may use; −1 if there is none.
+  virtual int descriptor() const noexcept = 0;
 };
 
 }  // namespace glissade::bridges

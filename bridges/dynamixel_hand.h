@@ -4,6 +4,7 @@
 /// potentiometers may measure more joints.
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,6 +25,8 @@ struct DynamixelServo {
   double torque_per_current = 0.0;  ///< Nm/A at the horn; 0: from the data sheet
   double max_current = 0.5;         ///< largest current, A
 };
+
+inline constexpr double kMeasuringBoardBaudRate = 921600.0;
 
 /// A potentiometer of the measuring board that measures a joint.
 struct MeasuredJoint {
@@ -50,11 +53,18 @@ struct DynamixelHand {
   /// data sheet gives only the factor 1/128; the rest is an assumption, so measure it where stiffness matters.
   double current_per_gain = 1e-3 / 128.0;
   bool has_fast_read = false;  ///< read with one packet from all servos; needs firmware 46
+  std::string board_port;      ///< of the measuring board, such as "/dev/ttyUSB1"
 };
 
-/// The DOGlove: five servos, ids 0 to 4, at the outer joints of thumb to little finger, and the flexion joints of its
-/// measuring board. The zero angles and ratios of each glove must be measured. Source: github.com/TEA-Lab/DOGlove.
-DynamixelHand doglove();
+/// The configuration of a preset, or else of the file with this path. Throws std::invalid_argument, naming file, line
+/// and key, for a file that is no valid configuration. docs/devices.md has the keys.
+DynamixelHand read_dynamixel_hand(const std::string& preset_or_path);
+
+/// The configuration in the text of a file. `source` is the file's name, for messages. Throws the same.
+DynamixelHand parse_dynamixel_hand(const std::string& text, const std::string& source);
+
+/// The names of all presets.
+std::vector<std::string> dynamixel_presets();
 
 /// Throws std::invalid_argument, naming the hand and the field, if a number is out of range, a model or joint does not
 /// exist, or two servos share an id or two entries a joint.
@@ -62,6 +72,20 @@ void validate(const DynamixelHand& hand);
 
 /// What the hand announces: the joints, and limits from the numbers of its servos. Throws what `validate` throws.
 devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand);
+
+/// What passes over the wire, for people. Lists are in the order of the hand's servos.
+struct DynamixelTraffic {
+  std::vector<double> angles;             ///< of the joints, rad; NaN before the first measurement
+  std::vector<bool> holds;                ///< the servo holds the limit of its joint
+  std::uint64_t missing_answers = 0;      ///< since construction
+  std::uint64_t restarted_watchdogs = 0;  ///< bus watchdogs that had expired and were started again
+  bool is_free = true;  ///< the port has taken an instruction that turns all torques off, and none since
+};
+
+class DynamixelBusWire : public Wire {
+ public:
+  virtual DynamixelTraffic traffic() const = 0;
+};
 
 /// The wire to a hand. `bus` leads to the servos; `board` to the measuring board, or is null without measured joints.
 /// Throws what `validate` throws; std::invalid_argument if a line is missing.
@@ -72,12 +96,11 @@ devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand);
 /// A joint limit is held by the servo itself: the goal position is the limit, the cap of current its largest torque,
 /// and the gain its stiffness. A servo also pulls toward its goal. So the cap is 0 while the joint is more than the
 /// gear's backlash inside its range, and the torque is off farther inside. Damping of limits is not used.
-std::unique_ptr<Wire> make_dynamixel_wire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus,
-                                          std::shared_ptr<ByteStream> board = nullptr,
-                                          std::shared_ptr<realtime::Clock> clock = nullptr);
-
-/// Turns the torque of all servos off, on a line that is open, without waiting for answers. For a process that watches
-/// over the bridge: a servo whose bus watchdog has expired holds its place, with up to its cap of current.
-void release_servos(const DynamixelHand& hand, ByteStream& bus) noexcept;
+///
+/// On a port of the system, a second process turns the torque of all servos off when this one is killed or hangs
+/// (`ReleaseGuard`): a servo whose bus watchdog has expired holds its place, with up to its cap of current.
+std::unique_ptr<DynamixelBusWire> make_dynamixel_wire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus,
+                                                      std::shared_ptr<ByteStream> board = nullptr,
+                                                      std::shared_ptr<realtime::Clock> clock = nullptr);
 
 }  // namespace glissade::bridges

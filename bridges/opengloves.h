@@ -2,16 +2,11 @@
 
 /// Terms of OpenGloves, the wire of LucidGloves and its kin, for the bridge and for the emulator.
 
-#include <array>
-#include <cstddef>
+#include <glissade/bridges/finger_values.h>
+#include <glissade/devices/glove_device.h>
+#include <glissade/devices/glove_model.h>
 
 namespace glissade::bridges {
-
-inline constexpr std::size_t kFingers = 5;
-
-/// One number for each finger, from the thumb to the little finger. A curl is 0 for a finger that is open, and 1 for
-/// one that is closed.
-using FingerValues = std::array<double, kFingers>;
 
 inline constexpr unsigned kOpenGlovesBaudRate = 115200;
 inline constexpr unsigned short kOpenGlovesTcpPort = 65432;
@@ -28,5 +23,11 @@ struct SensorRange {
   double open = 0.0;
   double closed = 4095.0;  ///< differs from `open`; may be less
 };
+
+/// The preset "opengloves": servos, strings, sensors and link of such a glove.
+devices::GloveModel opengloves_model();
+
+/// What such a glove renders, with the numbers of its model: limits of the fingers, and no force on the hand.
+devices::DeviceDescriptor opengloves_descriptor();
 
 }  // namespace glissade::bridges

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include <glissade/bridges/opengloves_check.h>
@@ -48,9 +47,7 @@ Heard hear_glove(SerialStream& stream, const std::function<bool()>& goes_on) {
   stream.write("\n");  // the firmware ignores it, but no longer waits for a line
   for (nanoseconds now = start; goes_on(); now = clock.now()) {
     if (heard.first ? now - heard.first_time > kForRate : now - start > kForFirstState) break;
-    std::array<char, 4096> bytes;
-    const std::size_t size = stream.read(bytes, milliseconds(20));
-    const std::optional<GloveLine> line = heard.decoder.take({bytes.data(), size});
+    const std::optional<GloveLine> line = heard.decoder.take(stream.read(milliseconds(20)));
     if (!line) continue;
     heard.note(*line, clock.now());
     stream.write(limit_line(line->encoding, FingerNumbers{}));

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -10,7 +9,8 @@
 #include <glissade/bridges/serial_stream.h>
 #include <glissade/realtime/clock.h>
 
-#include "opengloves/curl_map.h"
+#include "hand/finger_curls.h"
+#include "opengloves/curl_limits.h"
 #include "opengloves/line_codec.h"
 
 namespace glissade::bridges {
@@ -35,7 +35,7 @@ OpenGlovesOptions checked(OpenGlovesOptions options) {
   return options;
 }
 
-/// A first line break ends a line that was cut. Twice, because a line may be lost.
+/// The first line break ends a line that was cut. Twice, because a line may be lost.
 std::string release_lines(OpenGlovesEncoding encoding) {
   const std::string line = limit_line(encoding, FingerNumbers{});
   return "\n" + line + line;
@@ -43,40 +43,21 @@ std::string release_lines(OpenGlovesEncoding encoding) {
 
 }  // namespace
 
-devices::DeviceDescriptor opengloves_descriptor() {
-  devices::DeviceDescriptor descriptor;
-  descriptor.name = "OpenGloves glove";
-  // No force on the hand. The coupling of a part needs some stiffness nevertheless; the usual one is never limited.
-  descriptor.max_stiffness = 1000.0;
-  descriptor.max_rotational_stiffness = 100.0;
-  descriptor.update_rate = 60.0;
-  descriptor.delay = milliseconds(20);  // a loop of the firmware, a line at 115,200 baud, a period of the wire
-  descriptor.finger_command = devices::FingerCommand::kCurlLimit;
-  descriptor.limit_rate = 50.0;  // pulses of a hobby servo
-  descriptor.limit_delay = milliseconds(20);
-  descriptor.max_joint_torque = 0.5;     // about what a hobby servo holds by its string
-  descriptor.max_limit_stiffness = 1.0;  // of the string and the glove's fabric
-  descriptor.joint_resolution = 0.02;    // of a potentiometer on a string
-  descriptor.joint_lower = lower_angles();
-  descriptor.joint_upper = upper_angles();
-  return descriptor;
-}
-
 struct OpenGlovesWire::Glove {
   explicit Glove(OpenGlovesOptions wanted)
       : options(checked(std::move(wanted))),
         stream(options.port, kOpenGlovesBaudRate, kOpenGlovesTcpPort),
-        guard(std::make_unique<ReleaseGuard>()),
         period(nanoseconds(std::llround(1e9 / descriptor.update_rate))) {}
 
   void take(const GloveLine& line, devices::GloveState& state);
+  FingerNumbers limits_of(const devices::SafeCommand& command) const;
   void protect();
   [[noreturn]] void say_silence() const;
 
   OpenGlovesOptions options;
   devices::DeviceDescriptor descriptor = opengloves_descriptor();
   SerialStream stream;
-  std::unique_ptr<ReleaseGuard> guard;
+  ReleaseGuard guard;
   nanoseconds period;
   realtime::SteadyClock clock;
   GloveDecoder decoder;
@@ -104,7 +85,7 @@ const OpenGlovesTraffic& OpenGlovesWire::traffic() const noexcept {
 }
 
 void OpenGlovesWire::open() {
-  glove_->guard->disarm();  // it had the port until now, if a release had failed
+  glove_->guard.disarm();  // it had the port until now, if a release had failed
   glove_->stream.open();
   glove_->decoder = {};
   const bool is_free = glove_->traffic.is_free;
@@ -119,9 +100,7 @@ bool OpenGlovesWire::read(devices::GloveState& state) {
   const nanoseconds end = glove_->clock.now() + glove_->period;
   std::optional<GloveLine> newest;
   for (nanoseconds now = glove_->clock.now(); !newest && now < end; now = glove_->clock.now()) {
-    std::array<char, 4096> bytes;
-    const std::size_t size = glove_->stream.read(bytes, end - now);
-    newest = glove_->decoder.take({bytes.data(), size});
+    newest = glove_->decoder.take(glove_->stream.read(end - now));
   }
   glove_->traffic.refused = glove_->decoder.refused();
   if (newest) glove_->take(*newest, state);
@@ -140,7 +119,6 @@ void OpenGlovesWire::Glove::take(const GloveLine& line, devices::GloveState& sta
     traffic.curls[f] = curl_of(line.flexion[f], options.sensors[f]);
   is_answer_due = true;
   state.time = last_state;
-  state.X_WH = options.X_WH;
   state.joint_angles = angles_of(traffic.curls);
   // A glove without this gesture never tells, and its hand stays closed.
   has_grabbed = has_grabbed || line.grab;
@@ -148,12 +126,18 @@ void OpenGlovesWire::Glove::take(const GloveLine& line, devices::GloveState& sta
   if (has_grabbed && is_closed != line.grab) ++state.grip;
 }
 
+FingerNumbers OpenGlovesWire::Glove::limits_of(const devices::SafeCommand& command) const {
+  if (command.reasons().is_fading()) return {};
+  return limit_numbers(curl_limits(command.values().joint_limits, traffic.curls, descriptor.max_joint_torque),
+                       traffic.curls);
+}
+
 void OpenGlovesWire::Glove::protect() {
-  guard->arm(stream.descriptor(), release_lines(*traffic.encoding));
+  guard.arm(stream.descriptor(), release_lines(*traffic.encoding));
 }
 
 void OpenGlovesWire::Glove::say_silence() const {
-  const std::string& port = stream.port();
+  const std::string port = stream.name();
   const std::string after = " for " + std::to_string(kSilence / milliseconds(1000)) + " s";
   if (decoder.states() > 0) throw WireError(port + ": the glove has said nothing" + after);
   if (decoder.bytes() == 0)
@@ -172,12 +156,8 @@ void OpenGlovesWire::write(const devices::SafeCommand& command) {
     if (is_reminder_due) glove_->last_sent = now;
     return;
   }
-  if (!glove_->guard->renew()) {
-    glove_->guard = std::make_unique<ReleaseGuard>();
-    glove_->protect();
-  }
-  const FingerValues most = curl_limits(command.values().joint_limits, glove_->descriptor.max_joint_torque);
-  const FingerNumbers limits = limit_numbers(most, glove_->traffic.curls);
+  glove_->guard.renew();
+  const FingerNumbers limits = glove_->limits_of(command);
   bool is_freer = false;
   for (std::size_t f = 0; f < kFingers; ++f)
     is_freer = is_freer || limits[f] < glove_->traffic.limits[f];
@@ -202,7 +182,7 @@ void OpenGlovesWire::release() noexcept {
     }
   } catch (const std::exception&) {  // then the second process tries
   }
-  if (glove_->traffic.is_free) glove_->guard->disarm();
+  if (glove_->traffic.is_free) glove_->guard.disarm();
   glove_->stream.close();
   glove_->traffic.encoding.reset();
   glove_->traffic.limits = {};

@@ -8,8 +8,6 @@
 #include <optional>
 #include <string>
 
-#include <Eigen/Geometry>
-
 #include <glissade/bridges/opengloves.h>
 #include <glissade/bridges/wire.h>
 
@@ -18,11 +16,11 @@ namespace glissade::bridges {
 struct OpenGlovesOptions {
   std::string port;  ///< "/dev/ttyUSB0", "tcp:HOST" or "tcp:HOST:PORT"
   std::array<SensorRange, kFingers> sensors{};
-  Eigen::Isometry3d X_WH = Eigen::Isometry3d::Identity();  ///< where the hand is: the glove does not measure it
 };
 
-/// What such a glove renders: limits of the fingers, and no force on the hand.
-devices::DeviceDescriptor opengloves_descriptor();
+/// `LcmGloveHostOptions::patience_periods` for a bridge to such a glove. After the last command, the limits open within
+/// 0.1 s: the patience, a period of the wire, and a line.
+inline constexpr double kOpenGlovesPatience_periods = 3.0;
 
 /// What passes over the wire, for people.
 struct OpenGlovesTraffic {
@@ -36,7 +34,8 @@ struct OpenGlovesTraffic {
 
 /// Finds the encoding by itself. Sends all five limits, once for each state, because the firmware reads no more. The
 /// firmware keeps the last limits for ever: a second process, which the constructor starts, releases the glove when
-/// this one is killed or hangs (`ReleaseGuard`).
+/// this one is killed or hangs (`ReleaseGuard`). While a command fades, all limits are open: a servo is slow enough by
+/// itself, and a string that slackens pushes nobody.
 class OpenGlovesWire final : public Wire {
  public:
   /// Throws what `SerialStream` and `ReleaseGuard` throw, and std::invalid_argument for a sensor whose range is empty

@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include <glissade/bridges/release_guard.h>
+#include <glissade/bridges/wire.h>
 
 namespace glissade::bridges {
 namespace {
@@ -20,6 +21,8 @@ namespace {
 // The second process may be the fork of a process with several threads: it calls only what is safe after that.
 
 constexpr int kPatience_ms = 100;
+constexpr int kToEnd_ms = 250;
+constexpr std::chrono::milliseconds kRenewal{20};  // often enough, however often the first process calls
 constexpr std::size_t kLongestRelease = 100;
 
 enum Order : char { kArm = 'a', kRenew = 'r', kDisarm = 'd' };
@@ -27,7 +30,7 @@ enum Order : char { kArm = 'a', kRenew = 'r', kDisarm = 'd' };
 /// The device that the second process guards.
 struct Guarded {
   int descriptor = -1;
-  std::array<char, kLongestRelease + 2> release{};  // between line breaks
+  std::array<char, kLongestRelease> release{};
   std::size_t size = 0;
 };
 
@@ -73,9 +76,8 @@ void obey(Guarded& guarded, const std::array<char, kLongestRelease + 1>& packet,
   forget(guarded);
   if (packet[0] != kArm) return;
   guarded.descriptor = descriptor;
-  guarded.release[0] = '\n';
-  std::memcpy(&guarded.release[1], &packet[1], size - 1);
-  guarded.size = size;
+  guarded.size = size - 1;
+  std::memcpy(guarded.release.data(), &packet[1], guarded.size);
 }
 
 /// The life of the second process.
@@ -121,12 +123,34 @@ int leave_first_process(int socket) noexcept {
   return kSocket;
 }
 
+/// Whether the process has ended, and is no more to wait for.
+bool has_ended_within(pid_t id, int patience_ms) noexcept {
+  constexpr int kPause_ms = 5;
+  for (int waited_ms = 0; waited_ms <= patience_ms; waited_ms += kPause_ms) {
+    if (waitpid(id, nullptr, WNOHANG) != 0) return true;
+    poll(nullptr, 0, kPause_ms);
+  }
+  return false;
+}
+
 }  // namespace
 
 ReleaseGuard::ReleaseGuard() {
+  start();
+}
+
+ReleaseGuard::~ReleaseGuard() {
+  disarm();
+  end();
+}
+
+void ReleaseGuard::start() {
+  const auto refuse = [](int error) {
+    throw WireError("there is no second process, which would release the device if this one is killed: " +
+                    std::generic_category().message(error));
+  };
   std::array<int, 2> sockets{};
-  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets.data()) != 0)
-    throw std::system_error(errno, std::generic_category(), "No connection to a second process");
+  if (socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, sockets.data()) != 0) refuse(errno);
   // Until the second process ignores signals, they wait.
   sigset_t all;
   sigset_t before;
@@ -139,34 +163,63 @@ ReleaseGuard::ReleaseGuard() {
   close(sockets[1]);
   socket_ = sockets[0];
   if (id_ > 0) return;
-  close(socket_);
-  throw std::system_error(error, std::generic_category(),
-                          "No second process, which releases the device if this one is killed");
+  end();
+  refuse(error);
 }
 
-ReleaseGuard::~ReleaseGuard() {
-  disarm();
-  close(socket_);
-  waitpid(id_, nullptr, 0);
+/// A second process that has stopped, or waits in a driver, is killed; one that cannot even die is left behind.
+void ReleaseGuard::end() noexcept {
+  if (socket_ >= 0) close(socket_);
+  socket_ = -1;
+  if (id_ > 0 && !has_ended_within(id_, kToEnd_ms)) {
+    kill(id_, SIGKILL);
+    has_ended_within(id_, kToEnd_ms);
+  }
+  id_ = -1;
 }
 
-void ReleaseGuard::arm(int descriptor, std::string_view release) noexcept {
-  std::array<char, kLongestRelease + 1> packet{kArm};
-  const std::size_t size = release.copy(&packet[1], kLongestRelease);
-  send({packet.data(), size + 1}, descriptor);
+/// One that does not listen must not hold up the first process, and need not end well.
+void ReleaseGuard::replace() {
+  kill_now();
+  start();
 }
 
-bool ReleaseGuard::renew() noexcept {
+void ReleaseGuard::kill_now() noexcept {
+  if (id_ > 0) kill(id_, SIGKILL);
+  end();
+}
+
+void ReleaseGuard::arm(int descriptor, std::string_view release) {
+  guarded_ = descriptor;
+  release_ = release.substr(0, kLongestRelease);
+  if (send_arming()) return;
+  replace();
+  if (!send_arming()) throw WireError("the second process, which would release the device, does not listen");
+}
+
+void ReleaseGuard::renew() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now - renewed_ < kRenewal) return;
+  renewed_ = now;
   const char order = kRenew;
-  return send({&order, 1}, -1);
+  if (send({&order, 1}, -1)) return;
+  replace();
+  if (guarded_ >= 0) arm(guarded_, release_);
 }
 
 void ReleaseGuard::disarm() noexcept {
+  guarded_ = -1;
   const char order = kDisarm;
-  send({&order, 1}, -1);
+  if (socket_ >= 0 && !send({&order, 1}, -1)) kill_now();
 }
 
-/// False if the second process is no more. One that is behind has enough to read.
+bool ReleaseGuard::send_arming() const noexcept {
+  std::array<char, kLongestRelease + 1> packet{kArm};
+  const std::size_t size = release_.copy(&packet[1], kLongestRelease);
+  return send({packet.data(), size + 1}, guarded_);
+}
+
+/// False if the second process is no more, or so far behind that it does not guard.
 bool ReleaseGuard::send(std::string_view packet, int descriptor) const noexcept {
   iovec bytes{const_cast<char*>(packet.data()), packet.size()};
   alignas(cmsghdr) std::array<char, CMSG_SPACE(sizeof(int))> room{};
@@ -182,7 +235,7 @@ bool ReleaseGuard::send(std::string_view packet, int descriptor) const noexcept 
     header->cmsg_len = CMSG_LEN(sizeof(int));
     std::memcpy(CMSG_DATA(header), &descriptor, sizeof(int));
   }
-  return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT) >= 0 || errno == EAGAIN;
+  return sendmsg(socket_, &message, MSG_NOSIGNAL | MSG_DONTWAIT) >= 0;
 }
 
 }  // namespace glissade::bridges

@@ -5,12 +5,14 @@
 #include <system_error>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/serial_port.hpp>
 #include <boost/asio/write.hpp>
+#include <linux/serial.h>
 #include <sys/file.h>
 #include <sys/ioctl.h>
 #include <termios.h>
@@ -20,6 +22,9 @@
 #include <glissade/bridges/serial_stream.h>
 #include <glissade/bridges/wire.h>
 
+#include "stream/baud_rate.h"
+#include "stream/time_limit.h"
+
 namespace glissade::bridges {
 namespace {
 
@@ -27,6 +32,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
+constexpr std::chrono::milliseconds kLookUpPatience{800};
 constexpr std::chrono::milliseconds kConnectPatience{800};
 constexpr std::chrono::milliseconds kWritePatience{100};
 
@@ -40,7 +46,11 @@ std::optional<TcpAddress> tcp_address(std::string_view port, unsigned short defa
   if (!port.starts_with(kPrefix)) return std::nullopt;
   const std::string_view address = port.substr(kPrefix.size());
   const std::size_t colon = address.rfind(':');
-  if (colon == std::string_view::npos) return TcpAddress{std::string(address), std::to_string(default_tcp_port)};
+  if (colon == std::string_view::npos && default_tcp_port > 0)
+    return TcpAddress{std::string(address), std::to_string(default_tcp_port)};
+  if (colon == std::string_view::npos)
+    throw std::invalid_argument("port '" + std::string(port) +
+                                "': the number of the TCP port is missing: tcp:HOST:PORT");
   const std::string_view number = address.substr(colon + 1);
   unsigned value = 0;
   const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), value);
@@ -66,6 +76,28 @@ void keep_board_running(int descriptor) {
   tcsetattr(descriptor, TCSANOW, &settings);
 }
 
+/// A USB adapter may collect bytes for 16 ms. The driver need not know this wish.
+void ask_for_short_latency(int descriptor) {
+  serial_struct settings{};
+  if (ioctl(descriptor, TIOCGSERIAL, &settings) != 0) return;
+  settings.flags |= ASYNC_LOW_LATENCY;
+  ioctl(descriptor, TIOCSSERIAL, &settings);
+}
+
+/// The addresses of a host, or why there are none.
+struct Found {
+  std::vector<tcp::endpoint> endpoints;
+  error_code error;
+};
+
+Found look_up(const TcpAddress& address) {
+  asio::io_context context;
+  Found found;
+  for (const auto& entry : tcp::resolver(context).resolve(address.host, address.port, found.error))
+    found.endpoints.push_back(entry.endpoint());
+  return found;
+}
+
 }  // namespace
 
 struct SerialStream::Connection {
@@ -87,7 +119,8 @@ struct SerialStream::Connection {
   template <typename Handle>
   void wait(Handle& used, std::chrono::nanoseconds patience) {
     context.restart();
-    context.run_for(patience);
+    context.poll();  // also without patience, takes what has arrived
+    if (!context.stopped()) context.run_for(patience);
     if (context.stopped()) return;
     error_code ignored;
     used.cancel(ignored);
@@ -115,24 +148,27 @@ void SerialStream::Connection::open_serial() {
   const auto set = [&](const auto& option) {
     if (!error) serial.set_option(option, error);
   };
-  set(serial_port_base::baud_rate(baud_rate));
   set(serial_port_base::character_size(8));
   set(serial_port_base::parity(serial_port_base::parity::none));
   set(serial_port_base::stop_bits(serial_port_base::stop_bits::one));
   set(serial_port_base::flow_control(serial_port_base::flow_control::none));
-  if (error) throw WireError(port + ": the port refuses " + std::to_string(baud_rate) + " baud: " + error.message());
+  if (error) throw WireError(port + ": the port refuses its settings: " + error.message());
   keep_board_running(serial.native_handle());
+  ask_for_short_latency(serial.native_handle());
+  if (!set_baud_rate(serial.native_handle(), baud_rate))
+    throw WireError(port + ": the port refuses " + std::to_string(baud_rate) + " baud; its adapter may be too slow");
   tcflush(serial.native_handle(), TCIFLUSH);
   handle.emplace<asio::serial_port>(std::move(serial));
 }
 
 void SerialStream::Connection::open_tcp() {
   tcp::socket socket(context);
-  error_code error;
-  const tcp::resolver::results_type found = tcp::resolver(context).resolve(address->host, address->port, error);
-  if (error) throw WireError(port + ": there is no machine '" + address->host + "': " + error.message());
-  error = asio::error::would_block;
-  asio::async_connect(socket, found, [&error](const error_code& outcome, const tcp::endpoint&) { error = outcome; });
+  const std::optional<Found> found = within(kLookUpPatience, [address = *address] { return look_up(address); });
+  if (!found) throw WireError(port + ": no answer to the question where the machine '" + address->host + "' is");
+  if (found->error) throw WireError(port + ": there is no machine '" + address->host + "': " + found->error.message());
+  error_code error = asio::error::would_block;
+  asio::async_connect(socket, found->endpoints,
+                      [&error](const error_code& outcome, const tcp::endpoint&) { error = outcome; });
   wait(socket, kConnectPatience);
   if (error == asio::error::connection_refused)
     throw WireError(port + ": nothing listens there; is the device on, and is this its port?");
@@ -151,6 +187,10 @@ SerialStream::SerialStream(std::string port, unsigned baud_rate, unsigned short 
 }
 
 SerialStream::~SerialStream() = default;
+
+std::string SerialStream::name() const {
+  return connection_->port;
+}
 
 void SerialStream::open() {
   close();
@@ -171,18 +211,19 @@ bool SerialStream::is_open() const noexcept {
   return !std::holds_alternative<std::monostate>(connection_->handle);
 }
 
-std::size_t SerialStream::read(std::span<char> bytes, std::chrono::nanoseconds patience) {
+std::string SerialStream::read(std::chrono::nanoseconds patience) {
+  std::array<char, 4096> bytes;
   std::size_t count = 0;
   error_code error;
   connection_->with_handle([&](auto& handle) {
-    handle.async_read_some(asio::buffer(bytes.data(), bytes.size()), [&](const error_code& outcome, std::size_t size) {
+    handle.async_read_some(asio::buffer(bytes), [&](const error_code& outcome, std::size_t size) {
       error = outcome;
       count = size;
     });
     connection_->wait(handle, patience);
   });
   if (error && error != asio::error::operation_aborted) connection_->fail(error);
-  return count;
+  return {bytes.data(), count};
 }
 
 void SerialStream::write(std::string_view bytes) {
@@ -203,10 +244,6 @@ int SerialStream::descriptor() const noexcept {
   if (auto* serial = std::get_if<asio::serial_port>(&connection_->handle)) return serial->native_handle();
   if (auto* socket = std::get_if<tcp::socket>(&connection_->handle)) return socket->native_handle();
   return -1;
-}
-
-const std::string& SerialStream::port() const noexcept {
-  return connection_->port;
 }
 
 }  // namespace glissade::bridges

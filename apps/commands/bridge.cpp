@@ -23,6 +23,7 @@ void add_bridge_command(CLI::App& app, Command& chosen) {
   CLI::App* command = app.add_subcommand("bridge", "Join a device of one's own to the haptic server");
   command->require_subcommand(1);
   command->footer(kBridgeFooter);
+  add_bridge_dynamixel(*command, chosen);
   add_bridge_opengloves(*command, chosen);
 }
 

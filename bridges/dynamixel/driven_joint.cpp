@@ -69,13 +69,11 @@ void send_goals(ServoBus& bus, std::vector<DrivenJoint>& joints) {
   send_caps_and_positions(bus, joints);
 }
 
-void send_torque_off(ServoBus& bus, std::vector<DrivenJoint>& joints) {
+std::string torque_off(std::span<const std::uint8_t> ids) {
   std::vector<SyncWriteEntry> off;
-  for (DrivenJoint& joint : joints) {
-    joint.forget();
-    off.push_back({joint.id, encode_register(kTorqueEnable, 0)});
-  }
-  bus.sync_write(kTorqueEnable.address, off);
+  for (const std::uint8_t id : ids)
+    off.push_back({id, encode_register(kTorqueEnable, 0)});
+  return encode(sync_write_instruction(kTorqueEnable.address, off));
 }
 
 }  // namespace glissade::bridges::dynamixel

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -43,8 +44,8 @@ struct DrivenJoint {
 /// own, the present position. Throws WireError.
 void send_goals(ServoBus& bus, std::vector<DrivenJoint>& joints);
 
-/// Turns the torque of all servos off. Throws WireError.
-void send_torque_off(ServoBus& bus, std::vector<DrivenJoint>& joints);
+/// The bytes that turn the torque of these servos off.
+std::string torque_off(std::span<const std::uint8_t> ids);
 
 /// The registers that are read in each period.
 inline constexpr const Register& kFirstMeasured = kPresentCurrent;

@@ -7,8 +7,8 @@
 #include <functional>
 #include <utility>
 
-#include "dynamixel/emulated_device.h"
 #include "dynamixel/measuring_board.h"
+#include "emulation/emulated_device.h"
 
 namespace glissade::bridges::dynamixel {
 

@@ -42,9 +42,18 @@ EmulatedServo& EmulatedBus::servo(std::uint8_t id) {
   return *found;
 }
 
+/// Step by step together, because the servos may turn the joints of one hand.
+void EmulatedBus::advance(std::chrono::nanoseconds now) {
+  constexpr std::chrono::milliseconds kStep{1};
+  while (now_ < now) {
+    now_ = std::min(now_ + kStep, now);
+    for (EmulatedServo& one : servos_)
+      one.advance(now_);
+  }
+}
+
 void EmulatedBus::receive(std::string_view bytes, std::chrono::nanoseconds now) {
-  for (EmulatedServo& one : servos_)
-    one.advance(now);
+  advance(now);
   line_is_free_ = std::max(line_is_free_, now);
   decoder_.push(bytes);
   while (const std::optional<Packet> packet = decoder_.next()) {
@@ -57,8 +66,7 @@ void EmulatedBus::receive(std::string_view bytes, std::chrono::nanoseconds now) 
 }
 
 std::string EmulatedBus::send_until(std::chrono::nanoseconds now) {
-  for (EmulatedServo& one : servos_)
-    one.advance(now);
+  advance(now);
   std::string bytes;
   for (; !sent_.empty() && sent_.front().time <= now; sent_.pop_front())
     bytes += sent_.front().bytes;

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "dynamixel/emulated_device.h"
 #include "dynamixel/emulated_servo.h"
 #include "dynamixel/packet.h"
+#include "emulation/emulated_device.h"
 
 namespace glissade::bridges::dynamixel {
 
@@ -38,6 +38,7 @@ class EmulatedBus final : public EmulatedDevice {
   };
 
   EmulatedServo* find(std::uint8_t id);
+  void advance(std::chrono::nanoseconds now);
   void execute(const Packet& instruction);
   void execute_for(EmulatedServo& servo, const Packet& instruction);
   void ping_all();
@@ -48,6 +49,7 @@ class EmulatedBus final : public EmulatedDevice {
   void send(const std::string& bytes, std::chrono::nanoseconds delay);
 
   std::vector<EmulatedServo> servos_;
+  std::chrono::nanoseconds now_{0};
   double baud_rate_;
   PacketDecoder decoder_;
   std::deque<Sent> sent_;

@@ -43,6 +43,8 @@ EmulatedServo::EmulatedServo(std::uint8_t id, const ServoModel& model, std::shar
 void EmulatedServo::set_ram_defaults() {
   std::fill(table_.begin() + kTorqueEnable.address, table_.end(), '\0');
   set(kStatusReturnLevel, 2);
+  set(kPresentInputVoltage, to_counts(kPresentInputVoltage, 5.0));
+  set(kPresentTemperature, 30);
   set(kPositionPGain, kFactoryPGain);
   set(kGoalPwm, get(kPwmLimit));
   set(kGoalCurrent, get(kCurrentLimit));

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "dynamixel/emulated_finger.h"
+#include "dynamixel/horn_load.h"
 #include "dynamixel/packet.h"
 #include "dynamixel/registers.h"
 #include "dynamixel/status.h"

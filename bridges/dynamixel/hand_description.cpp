@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include <glissade/bridges/dynamixel_hand.h>
+#include <glissade/devices/glove_model.h>
 
 #include "dynamixel/joint_scale.h"
 #include "dynamixel/measuring_board.h"
@@ -100,8 +101,15 @@ devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand) {
   const ServoModel model = *dynamixel::find_model(hand.model);
   devices::DeviceDescriptor device;
   device.name = hand.name;
+  // No force on the hand: a server couples parts to it as for the preset.
+  const devices::DeviceDescriptor preset = devices::descriptor_of(devices::read_glove_model("dynamixel"));
+  device.max_stiffness = preset.max_stiffness;
+  device.max_rotational_stiffness = preset.max_rotational_stiffness;
   device.finger_command = devices::FingerCommand::kJointLimit;
-  device.update_rate = 1e9 / static_cast<double>(hand.period.count());
+  // The bus may be faster. But states and commands are old after a few of these periods, on a busy computer after 15
+  // ms, and the servos hold limits without them.
+  constexpr double kAnnounced_Hz = 200.0;
+  device.update_rate = std::min(1e9 / static_cast<double>(hand.period.count()), kAnnounced_Hz);
   device.delay = std::chrono::milliseconds(1);  // of the bus
   // The loop in the servo is not documented. Its clock ticks once a millisecond.
   device.limit_rate = 1000.0;
@@ -123,26 +131,6 @@ devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand) {
   for (const MeasuredJoint& measured : hand.measured)
     announce(measured.joint);
   return device;
-}
-
-DynamixelHand doglove() {
-  // In the order of `hands::kJointNames`: of each finger the joint at the knuckle, the next one and the last one.
-  constexpr int kThumbMcp = 1;
-  constexpr int kThumbIp = 2;
-  constexpr std::array<int, 4> kFingerMcp{4, 7, 11, 15};
-  DynamixelHand hand;
-  hand.name = "DOGlove";
-  const double upright = std::numbers::pi;
-  hand.servos.push_back({.id = 0, .joint = kThumbIp, .zero = upright});
-  hand.measured.push_back({.channel = 1, .joint = kThumbMcp, .zero = upright});
-  for (int finger = 0; finger < 4; ++finger) {
-    const int mcp = kFingerMcp[index_of(finger)];
-    const int channel = 4 + 3 * finger;  // knuckle, middle joint, spreading
-    hand.servos.push_back({.id = 1 + finger, .joint = mcp + 2, .zero = upright});
-    hand.measured.push_back({.channel = channel, .joint = mcp, .zero = upright});
-    hand.measured.push_back({.channel = channel + 1, .joint = mcp + 1, .zero = upright});
-  }
-  return hand;
 }
 
 }  // namespace glissade::bridges

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hand/finger_curls.h"
+
 namespace glissade::bridges {
 namespace dynamixel {
 namespace {
@@ -44,6 +46,7 @@ DynamixelWire::DynamixelWire(const DynamixelHand& hand, std::shared_ptr<ByteStre
 }
 
 void DynamixelWire::open() {
+  if (guard_) guard_->disarm();  // it had the port until now, if a release had failed
   bus_line_->open();
   if (board_line_) board_line_->open();
   board_.clear();
@@ -56,7 +59,15 @@ void DynamixelWire::open() {
     const std::int64_t position = set_up(servo, hand_, joint.scale, *clock_);
     joint.scale.choose_turn(position, descriptor_.joint_lower[joint.joint], descriptor_.joint_upper[joint.joint]);
   }
+  is_free_ = true;  // all servos have confirmed that their torque is off
+  guard_port();
   next_ = measured_ = board_measured_ = clock_->now();
+}
+
+void DynamixelWire::guard_port() {
+  if (bus_line_->descriptor() < 0) return;
+  if (!guard_) guard_.emplace();
+  guard_->arm(bus_line_->descriptor(), torque_off(ids_));
 }
 
 void DynamixelWire::wait_for_period() {
@@ -72,6 +83,7 @@ bool DynamixelWire::read(devices::GloveState& state) {
   if (!measure_servos() || !has_board) return false;
   check_next_servo();
   state.time = time;
+  state.joint_angles = angles_of({});  // of the joints that nothing measures: an open hand, the thumb opposite
   for (const DrivenJoint& joint : joints_)
     state.joint_angles[joint.joint] = joint.angle;
   for (const MeasuredJoint& measured : hand_.measured) {
@@ -113,7 +125,7 @@ bool DynamixelWire::measure_board() {
   if (clock_->now() - board_measured_ > kLongestSilence) {
     throw WireError("The measuring board on " + board_line_->name() + " has sent nothing for " +
                     seconds_text(kLongestSilence) + "; check its supply, its cable and the baud rate of " +
-                    std::to_string(static_cast<int>(kBoardBaudRate)) + ".");
+                    std::to_string(static_cast<int>(kMeasuringBoardBaudRate)) + ".");
   }
   return has_board_frame_;
 }
@@ -162,19 +174,38 @@ void DynamixelWire::fail_by_silence(const std::vector<std::optional<Answer>>& an
 }
 
 void DynamixelWire::write(const devices::SafeCommand& command) {
+  if (guard_) guard_->renew();
   const devices::JointLimits& limits = command.values().joint_limits;
   for (DrivenJoint& joint : joints_)
     joint.set_limit(limits.joints[joint.joint]);
+  for (const DrivenJoint& joint : joints_)
+    is_free_ = is_free_ && !joint.goal.has_torque;
   send_goals(bus_, joints_);
+}
+
+DynamixelTraffic DynamixelWire::traffic() const {
+  DynamixelTraffic traffic;
+  for (const DrivenJoint& joint : joints_) {
+    traffic.angles.push_back(joint.angle);
+    traffic.holds.push_back(joint.goal.has_torque && joint.goal.max_torque > 0.0);
+  }
+  traffic.missing_answers = bus_.statistics().missing_answers;
+  traffic.restarted_watchdogs = restarted_watchdogs_;
+  traffic.is_free = is_free_;
+  return traffic;
 }
 
 void DynamixelWire::release() noexcept {
   constexpr int kRepeats = 3;  // nothing confirms them
+  for (DrivenJoint& joint : joints_)
+    joint.forget();
   try {
-    for (int i = 0; i < kRepeats; ++i)
-      send_torque_off(bus_, joints_);
-  } catch (const WireError&) {
-    // The line is gone; the bus watchdogs stop the servos.
+    for (int i = 0; i < kRepeats && bus_line_->is_open(); ++i)
+      bus_line_->write(torque_off(ids_));
+    is_free_ = is_free_ || bus_line_->is_open();
+    if (is_free_ && guard_) guard_->disarm();
+  } catch (const std::exception&) {
+    // The line is gone: the second process tries, and the bus watchdogs stop the servos.
   }
   bus_line_->close();
   if (board_line_) board_line_->close();
@@ -182,26 +213,15 @@ void DynamixelWire::release() noexcept {
 
 }  // namespace dynamixel
 
-std::unique_ptr<Wire> make_dynamixel_wire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus,
-                                          std::shared_ptr<ByteStream> board, std::shared_ptr<realtime::Clock> clock) {
+std::unique_ptr<DynamixelBusWire> make_dynamixel_wire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus,
+                                                      std::shared_ptr<ByteStream> board,
+                                                      std::shared_ptr<realtime::Clock> clock) {
   validate(hand);
   if (!bus) throw std::invalid_argument("A hand of Dynamixel servos needs a line to its bus.");
   if (hand.measured.empty() != !board)
     throw std::invalid_argument("A hand needs a line to its measuring board if and only if the board measures joints.");
   if (!clock) clock = std::make_shared<realtime::SteadyClock>();
   return std::make_unique<dynamixel::DynamixelWire>(hand, std::move(bus), std::move(board), std::move(clock));
-}
-
-void release_servos(const DynamixelHand& hand, ByteStream& bus) noexcept {
-  try {
-    std::vector<dynamixel::SyncWriteEntry> off;
-    for (const DynamixelServo& servo : hand.servos)
-      off.push_back({static_cast<std::uint8_t>(servo.id), encode_register(dynamixel::kTorqueEnable, 0)});
-    realtime::SteadyClock clock;
-    dynamixel::ServoBus(bus, clock, {}).sync_write(dynamixel::kTorqueEnable.address, off);
-  } catch (const std::exception&) {
-    // Nothing is left to try.
-  }
 }
 
 }  // namespace glissade::bridges

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <glissade/bridges/dynamixel_hand.h>
+#include <glissade/bridges/release_guard.h>
 #include <glissade/bridges/wire.h>
 
 #include "dynamixel/driven_joint.h"
@@ -20,7 +21,7 @@
 
 namespace glissade::bridges::dynamixel {
 
-class DynamixelWire final : public Wire {
+class DynamixelWire final : public DynamixelBusWire {
  public:
   DynamixelWire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus, std::shared_ptr<ByteStream> board,
                 std::shared_ptr<realtime::Clock> clock);
@@ -33,11 +34,10 @@ class DynamixelWire final : public Wire {
   void write(const devices::SafeCommand& command) override;
   void release() noexcept override;
 
-  /// Bus watchdogs that had expired and were started again.
-  std::uint64_t restarted_watchdogs() const noexcept { return restarted_watchdogs_; }
-  BusStatistics bus_statistics() const noexcept { return bus_.statistics(); }
+  DynamixelTraffic traffic() const override;
 
  private:
+  void guard_port();
   void wait_for_period();
   bool measure_servos();
   bool measure_board();
@@ -53,6 +53,7 @@ class DynamixelWire final : public Wire {
   std::shared_ptr<ByteStream> board_line_;
   std::shared_ptr<realtime::Clock> clock_;
   ServoBus bus_;
+  std::optional<ReleaseGuard> guard_;  // of a port of the system
   std::vector<DrivenJoint> joints_;
   std::vector<std::uint8_t> ids_;
   BoardDecoder board_;
@@ -64,6 +65,7 @@ class DynamixelWire final : public Wire {
   int periods_to_check_ = 0;
   std::size_t next_checked_ = 0;
   std::uint64_t restarted_watchdogs_ = 0;
+  bool is_free_ = true;
 };
 
 }  // namespace glissade::bridges::dynamixel

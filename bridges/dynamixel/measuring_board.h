@@ -15,7 +15,6 @@ namespace glissade::bridges::dynamixel {
 
 inline constexpr std::size_t kBoardChannels = 16;
 inline constexpr std::size_t kBoardFrameSize = 76;
-inline constexpr double kBoardBaudRate = 921600.0;
 
 /// A frame of the board as it is on the line.
 struct BoardFrame {

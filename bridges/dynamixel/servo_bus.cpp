@@ -32,6 +32,16 @@ Answer to_answer(const Packet& packet) {
 
 }  // namespace
 
+Packet sync_write_instruction(std::uint16_t address, std::span<const SyncWriteEntry> entries) {
+  std::string parameters = address_and_size(address, entries[0].data.size());
+  for (const SyncWriteEntry& entry : entries) {
+    GLISSADE_ASSERT(entry.data.size() == entries[0].data.size());
+    parameters.push_back(static_cast<char>(entry.id));
+    parameters += entry.data;
+  }
+  return {kBroadcastId, Instruction::kSyncWrite, parameters};
+}
+
 ServoBus::ServoBus(ByteStream& line, realtime::Clock& clock, const BusSettings& settings)
     : line_(line), clock_(clock), settings_(settings) {}
 
@@ -143,14 +153,7 @@ std::vector<std::optional<Answer>> ServoBus::fast_sync_read(std::span<const std:
 }
 
 void ServoBus::sync_write(std::uint16_t address, std::span<const SyncWriteEntry> entries) {
-  if (entries.empty()) return;
-  std::string parameters = address_and_size(address, entries[0].data.size());
-  for (const SyncWriteEntry& entry : entries) {
-    GLISSADE_ASSERT(entry.data.size() == entries[0].data.size());
-    parameters.push_back(static_cast<char>(entry.id));
-    parameters += entry.data;
-  }
-  line_.write(encode({kBroadcastId, Instruction::kSyncWrite, parameters}));
+  if (!entries.empty()) line_.write(encode(sync_write_instruction(address, entries)));
 }
 
 }  // namespace glissade::bridges::dynamixel

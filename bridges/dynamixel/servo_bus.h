@@ -39,6 +39,10 @@ struct SyncWriteEntry {
   std::string data;
 };
 
+/// Writes to several servos, without answers. All entries, of which there is one at least, must have the same number of
+/// bytes.
+Packet sync_write_instruction(std::uint16_t address, std::span<const SyncWriteEntry> entries);
+
 /// What a bus has seen so far.
 struct BusStatistics {
   std::uint64_t answers = 0;
@@ -66,7 +70,7 @@ class ServoBus {
   /// The same with one packet from all servos, which takes less time. If one servo is missing, so are those after it.
   std::vector<std::optional<Answer>> fast_sync_read(std::span<const std::uint8_t> ids, std::uint16_t address,
                                                     std::uint16_t size);
-  /// All entries must have the same number of bytes. Does nothing without entries.
+  /// See `sync_write_instruction`. Does nothing without entries.
   void sync_write(std::uint16_t address, std::span<const SyncWriteEntry> entries);
 
   BusStatistics statistics() const noexcept;

@@ -9,21 +9,6 @@ namespace {
 constexpr int kAttempts = 3;
 constexpr std::chrono::milliseconds kRestartTime{500};
 
-void check_identity(ServoAccess& servo, const DynamixelHand& hand) {
-  const PingAnswer identity = servo.ping();
-  const ServoModel expected = *find_model(hand.model);
-  if (identity.model != expected.number) {
-    const std::optional<ServoModel> found = find_model(identity.model);
-    servo.fail("is " +
-               (found ? "an " + std::string(found->name) : "of the unknown model " + std::to_string(identity.model)) +
-               ", but the configuration says " + hand.model);
-  }
-  if (hand.has_fast_read && identity.firmware < kFastReadFirmware) {
-    servo.fail("has firmware " + std::to_string(identity.firmware) + ", but fast sync read needs " +
-               std::to_string(kFastReadFirmware) + "; update it, or turn fast reading off");
-  }
-}
-
 /// A servo with a hardware error turns its torque off, and only a restart lets it turn on again.
 void clear_hardware_error(ServoAccess& servo, realtime::Clock& clock) {
   if (servo.read(kHardwareErrorStatus) == 0) return;
@@ -102,14 +87,28 @@ void start_watchdog(ServoAccess& servo, const DynamixelHand& hand) {
   servo.write(kBusWatchdog, watchdog_count(hand));
 }
 
+std::string trouble_of(ServoAccess& servo, const DynamixelHand& hand) {
+  const PingAnswer identity = servo.ping();
+  if (identity.model != find_model(hand.model)->number) {
+    const std::optional<ServoModel> found = find_model(identity.model);
+    return "is " +
+           (found ? "an " + std::string(found->name) : "of the unknown model " + std::to_string(identity.model)) +
+           ", but the configuration says " + hand.model;
+  }
+  if (hand.has_fast_read && identity.firmware < kFastReadFirmware) {
+    return "has firmware " + std::to_string(identity.firmware) + ", but fast sync read needs " +
+           std::to_string(kFastReadFirmware) + "; update it, or turn fast reading off";
+  }
+  // An offset moves the goal when the bus watchdog of an old firmware expires.
+  if (servo.read(kHomingOffset) == 0) return {};
+  return "has a homing offset; set the register Homing Offset to 0, and use the zero angle of the configuration";
+}
+
 std::int64_t set_up(ServoAccess& servo, const DynamixelHand& hand, const JointScale& scale, realtime::Clock& clock) {
-  check_identity(servo, hand);
+  if (const std::string trouble = trouble_of(servo, hand); !trouble.empty()) servo.fail(trouble);
   servo.write(kTorqueEnable, 0);
   servo.write(kBusWatchdog, 0);  // else an expired one keeps the goals read-only
   clear_hardware_error(servo, clock);
-  // An offset moves the goal when the bus watchdog of an old firmware expires.
-  if (servo.read(kHomingOffset) != 0)
-    servo.fail("has a homing offset; set the register Homing Offset to 0, and use the zero angle of the configuration");
   servo.ensure(kReturnDelayTime, 0);
   servo.ensure(kDriveMode, 0);
   servo.ensure(kOperatingMode, kCurrentBasedPosition);

@@ -44,8 +44,12 @@ class ServoAccess {
   std::string name_;
 };
 
-/// Checks model and firmware, turns the torque off, restarts a servo with a hardware error, and writes all settings of
-/// the hand. Returns the present position. Throws WireError.
+/// Why the bridge cannot use the servo, as the end of a sentence that begins with its name: another model, old
+/// firmware, a homing offset. Empty if it can. Throws WireError.
+std::string trouble_of(ServoAccess& servo, const DynamixelHand& hand);
+
+/// Refuses a servo with a trouble, turns the torque off, restarts a servo with a hardware error, and writes all
+/// settings of the hand. Returns the present position. Throws WireError.
 std::int64_t set_up(ServoAccess& servo, const DynamixelHand& hand, const JointScale& scale, realtime::Clock& clock);
 
 /// Starts the bus watchdog, also one that has expired. The torque is off afterwards. Throws WireError.

@@ -15,11 +15,13 @@ namespace glissade::test_support {
 
 /// Every command of the program.
 inline const std::vector<std::string> kCommands{"bridge",
+                                                "bridge dynamixel",
                                                 "bridge opengloves",
                                                 "collide",
                                                 "demo",
                                                 "doctor",
                                                 "emulate",
+                                                "emulate dynamixel",
                                                 "emulate opengloves",
                                                 "example",
                                                 "export",

@@ -16,7 +16,7 @@
 #include <glissade/realtime/clock.h>
 
 #include "eventually.h"
-#include "opengloves/curl_map.h"
+#include "hand/finger_curls.h"
 #include "temporary_folder.h"
 
 namespace glissade::bridges {
@@ -29,8 +29,9 @@ using testing::HasSubstr;
 constexpr std::size_t kIndexJoint = 4;  // its mcp
 
 /// A wearer who holds the fingers still.
-EmulatorOptions still(const FingerValues& curls) {
-  EmulatorOptions options;
+OpenGlovesEmulatorOptions still(const FingerValues& curls) {
+  OpenGlovesEmulatorOptions options;
+  options.model.wearer.tremor = 0.0;
   options.wearer = [curls](std::chrono::nanoseconds) { return curls; };
   return options;
 }
@@ -70,17 +71,15 @@ bool turns_until(OpenGlovesWire& wire, devices::GloveState& state, const devices
 
 TEST(OpenGlovesWire, ReadsTheFingers) {
   for (const auto encoding : {kAlpha, kLegacy}) {
-    EmulatorOptions options = still({0.0, 0.5, 0.25, 0.0, 1.0});
+    OpenGlovesEmulatorOptions options = still({0.0, 0.5, 0.25, 0.0, 1.0});
     options.encoding = encoding;
     OpenGlovesEmulator glove(options);
-    const Eigen::Isometry3d X_WH(Eigen::Translation3d(0.1, 0.2, 0.3));
-    OpenGlovesWire wire({.port = glove.port(), .X_WH = X_WH});
+    OpenGlovesWire wire({.port = glove.port()});
     wire.open();
     devices::GloveState state;
     const double half = angles_of({0, 0.5, 0, 0, 0})[kIndexJoint];
     EXPECT_TRUE(turns_until(wire, state, {}, [&] { return std::abs(state.joint_angles[kIndexJoint] - half) < 0.01; }));
     EXPECT_EQ(wire.traffic().encoding, encoding);
-    EXPECT_EQ(state.X_WH.translation().z(), 0.3);
     const realtime::SteadyClock clock;
     EXPECT_LT(clock.now() - state.time, std::chrono::seconds(5));
     EXPECT_EQ(state.grip, 1) << "a hand that tells nothing stays closed";
@@ -99,7 +98,7 @@ TEST(OpenGlovesWire, StopsAFingerAtItsLimit) {
 
 TEST(OpenGlovesWire, HoldsTheFingerButNotTheOthers) {
   std::atomic<double> wanted = 0.1;
-  EmulatorOptions options;
+  OpenGlovesEmulatorOptions options;
   options.wearer = [&](std::chrono::nanoseconds) {
     const double curl = wanted;
     return FingerValues{curl, curl, curl, curl, curl};
@@ -114,11 +113,11 @@ TEST(OpenGlovesWire, HoldsTheFingerButNotTheOthers) {
   turns_until(wire, state, at_half, [&] { return std::chrono::steady_clock::now() > end; });  // servos are slow
   wanted = 0.9;
   EXPECT_TRUE(turns_until(wire, state, at_half, [&] { return glove.state().curls[2] > 0.85; }));
-  EXPECT_NEAR(glove.state().curls[1], 0.5, 0.02);
+  EXPECT_NEAR(glove.state().curls[1], 0.5, 0.05) << "the string stretches";
 }
 
 TEST(OpenGlovesWire, KeepsAGloveTalkingThatWaitsForEachLine) {
-  EmulatorOptions options = still({});
+  OpenGlovesEmulatorOptions options = still({});
   options.line_patience = std::chrono::hours(1);
   OpenGlovesEmulator glove(options);
   OpenGlovesWire wire({.port = glove.port()});
@@ -128,7 +127,7 @@ TEST(OpenGlovesWire, KeepsAGloveTalkingThatWaitsForEachLine) {
 }
 
 TEST(OpenGlovesWire, SaysNothingBeforeItKnowsTheEncoding) {
-  EmulatorOptions options = still({});
+  OpenGlovesEmulatorOptions options = still({});
   options.encoding = kLegacy;
   OpenGlovesEmulator glove(options);
   OpenGlovesWire wire({.port = glove.port()});
@@ -139,8 +138,8 @@ TEST(OpenGlovesWire, SaysNothingBeforeItKnowsTheEncoding) {
 }
 
 TEST(OpenGlovesWire, LivesWithGarbageHalfLinesAndEchoes) {
-  EmulatorOptions options = still({0.5, 0.5, 0.5, 0.5, 0.5});
-  options.faults = {.garbage = 0.3, .half_lines = 0.3, .echo = true};
+  OpenGlovesEmulatorOptions options = still({0.5, 0.5, 0.5, 0.5, 0.5});
+  options.faults = {.garbage = 0.3, .cut = 0.3, .has_echo = true};
   OpenGlovesEmulator glove(options);
   OpenGlovesWire wire({.port = glove.port()});
   wire.open();
@@ -176,9 +175,62 @@ TEST(OpenGlovesWire, IsReleasedWhileTheBridgeHangs) {
   EXPECT_TRUE(turns_until(wire, state, index_limit(0.5), [&] { return glove.state().limits[1] > 450; }));
 }
 
+/// A command without limits, which the envelope makes fade because it is old.
+devices::SafeCommand fading_index_limit() {
+  devices::SafetyEnvelope envelope(opengloves_descriptor());
+  devices::GloveState state;
+  state.time = milliseconds(1);
+  devices::GloveCommand wanted;
+  const double upper = angles_of({0, 0.5, 0, 0, 0})[kIndexJoint];
+  wanted.joint_limits.joints[kIndexJoint] = {.upper = upper, .stiffness = 1.0, .max_torque = 0.5};
+  devices::SafeCommand safe;
+  for (int i = 1; i <= 70; ++i) {
+    const milliseconds now = i * milliseconds(16);
+    state.sequence = i;
+    state.time = now;
+    if (i < 70) wanted.state_time = now;
+    if (i == 70) wanted.state_time = milliseconds(1);
+    safe = envelope.limit(wanted, state, now);
+  }
+  return safe;
+}
+
+TEST(OpenGlovesWire, OpensAllLimitsAtOnceWhenACommandFades) {
+  const devices::SafeCommand fading = fading_index_limit();
+  ASSERT_TRUE(fading.reasons().is_fading());
+  ASSERT_GT(fading.values().joint_limits.joints[kIndexJoint].max_torque, 0.0) << "the fade has only begun";
+  OpenGlovesEmulator glove(still({}));
+  OpenGlovesWire wire({.port = glove.port()});
+  wire.open();
+  devices::GloveState state;
+  ASSERT_TRUE(turns_until(wire, state, index_limit(0.5), [&] { return glove.state().limits[1] > 450; }));
+  EXPECT_TRUE(turns_until(wire, state, fading, [&] { return glove.state().limits[1] == 0; }));
+}
+
+TEST(OpenGlovesWire, SendsNoMoreLinesThanTheFirmwareReads) {
+  OpenGlovesEmulatorOptions options = still({});
+  options.rate_Hz = 30.0;  // slower than the commands
+  OpenGlovesEmulator glove(options);
+  OpenGlovesWire wire({.port = glove.port()});
+  wire.open();
+  devices::GloveState state;
+  const devices::SafeCommand at_half = index_limit(0.5);
+  std::ptrdiff_t most = 0;
+  bool is_limit = false;
+  EXPECT_TRUE(turns_until(wire, state, at_half, [&] { return wire.traffic().states > 10; }));
+  for (int i = 0; i < 200; ++i) {
+    is_limit = i % 3 != 0 && !is_limit;
+    wire.read(state);
+    wire.write(is_limit ? at_half : devices::SafeCommand());
+    most = std::max(most, glove.state().waiting_lines);
+  }
+  EXPECT_LE(most, 3) << "each one that waits delays the release by a state";
+  EXPECT_EQ(glove.state().lost_bytes, 0);
+}
+
 TEST(OpenGlovesWire, ComesBackEachTimeTheGloveIsPluggedInAgain) {
   const test_support::TemporaryFolder folder;
-  EmulatorOptions options = still({});
+  OpenGlovesEmulatorOptions options = still({});
   options.link = folder.path("glove");
   OpenGlovesEmulator glove(options);
   OpenGlovesWire wire({.port = options.link});
@@ -186,6 +238,7 @@ TEST(OpenGlovesWire, ComesBackEachTimeTheGloveIsPluggedInAgain) {
   constexpr int kTimes = 20;
   for (int i = 0; i < kTimes; ++i) {
     wire.open();
+    ASSERT_TRUE(turns_until(wire, state, {}, [&] { return glove.state().limits[1] == 0; })) << i;
     ASSERT_TRUE(turns_until(wire, state, index_limit(0.5), [&] { return glove.state().limits[1] > 450; })) << i;
     glove.unplug();
     EXPECT_THROW(turns_until(wire, state, {}, [] { return false; }), WireError);
@@ -200,7 +253,7 @@ TEST(OpenGlovesWire, ComesBackEachTimeTheGloveIsPluggedInAgain) {
 }
 
 TEST(OpenGlovesWire, WorksOverTcp) {
-  EmulatorOptions options = still({});
+  OpenGlovesEmulatorOptions options = still({});
   options.is_tcp = true;
   OpenGlovesEmulator glove(options);
   OpenGlovesWire wire({.port = glove.port()});
@@ -225,7 +278,7 @@ std::string findings(const std::string& port, bool expected) {
 }
 
 TEST(OpenGlovesCheck, ShowsTheFirstNumbers) {
-  EmulatorOptions options = still({});
+  OpenGlovesEmulatorOptions options = still({});
   options.encoding = kLegacy;
   options.full_scale = 1023;
   OpenGlovesEmulator glove(options);
@@ -238,9 +291,9 @@ TEST(OpenGlovesCheck, ShowsTheFirstNumbers) {
 
 TEST(OpenGlovesCheck, SaysWhatIsWrong) {
   EXPECT_THAT(findings("/dev/ttyUSB99", false), HasSubstr("no such port"));
-  EmulatorOptions options = still({});
+  OpenGlovesEmulatorOptions options = still({});
   options.faults.garbage = 1.0;
-  options.faults.half_lines = 1.0;
+  options.faults.cut = 1.0;
   OpenGlovesEmulator other(options);
   EXPECT_THAT(findings(other.port(), false), HasSubstr("no state of an OpenGloves glove"));
 }

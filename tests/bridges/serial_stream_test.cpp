@@ -1,8 +1,10 @@
 /// Ports that are not there, not ours, or vanish; and what is said about them.
 
 #include <filesystem>
+#include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -15,7 +17,9 @@
 #include <glissade/bridges/serial_stream.h>
 #include <glissade/bridges/wire.h>
 
-#include "opengloves/emulated_port.h"
+#include "emulation/emulated_port.h"
+#include "stream/baud_rate.h"
+#include "stream/time_limit.h"
 #include "temporary_folder.h"
 
 namespace glissade::bridges {
@@ -25,7 +29,7 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 
 SerialStream stream_to(const std::string& port) {
-  return {port, kOpenGlovesBaudRate, kOpenGlovesTcpPort};
+  return SerialStream(port, kOpenGlovesBaudRate, kOpenGlovesTcpPort);
 }
 
 /// The sentence of the error when the port is opened.
@@ -39,8 +43,7 @@ std::string trouble_with(const std::string& port) {
 }
 
 std::string read_text(SerialStream& stream) {
-  std::array<char, 100> bytes;
-  return {bytes.data(), stream.read(bytes, milliseconds(2000))};
+  return stream.read(milliseconds(2000));
 }
 
 TEST(SerialStream, PassesBytesBothWays) {
@@ -65,12 +68,49 @@ TEST(SerialStream, WaitsNoLongerThanItMay) {
   device.plug();
   SerialStream stream = stream_to(device.name());
   stream.open();
-  std::array<char, 10> bytes;
   const auto start = std::chrono::steady_clock::now();
-  EXPECT_EQ(stream.read(bytes, milliseconds(20)), 0);
+  EXPECT_EQ(stream.read(milliseconds(20)), "");
   EXPECT_GE(std::chrono::steady_clock::now() - start, milliseconds(20));
   device.write("later");
   EXPECT_EQ(read_text(stream), "later") << "nothing is lost between two reads";
+}
+
+TEST(SerialStream, ReadsWhatHasArrivedWithoutPatience) {
+  EmulatedPort device = EmulatedPort::terminal("");
+  device.plug();
+  SerialStream stream = stream_to(device.name());
+  stream.open();
+  for (int i = 0; i < 50; ++i) {
+    const std::string sent = "number " + std::to_string(i);
+    device.write(sent);
+    ASSERT_EQ(stream.read(milliseconds(0)), sent);
+    ASSERT_EQ(stream.read(milliseconds(0)), "");
+  }
+}
+
+TEST(SerialStream, SetsAnyBaudRate) {
+  EmulatedPort device = EmulatedPort::terminal("");
+  device.plug();
+  // 3 Mbaud is that of the servos; the others have no constant in termios.
+  for (const unsigned rate : {115200U, 3000000U, 250000U, 4500000U}) {
+    SerialStream stream(device.name(), rate);
+    stream.open();
+    EXPECT_EQ(baud_rate(stream.descriptor()), rate);
+    EXPECT_EQ(device.baud_rate(), rate);
+    device.write("\xFF\xFD");
+    EXPECT_EQ(read_text(stream), "\xFF\xFD");
+  }
+}
+
+TEST(SerialStream, WaitsForNoNameWithoutEnd) {
+  const auto start = std::chrono::steady_clock::now();
+  const auto slow = [] {
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    return 1;
+  };
+  EXPECT_EQ(within(milliseconds(10), slow), std::nullopt);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(3));
+  EXPECT_EQ(within(std::chrono::seconds(20), [] { return 2; }), 2);
 }
 
 TEST(SerialStream, SaysWhatIsWrongWithAPort) {
@@ -83,6 +123,7 @@ TEST(SerialStream, SaysWhatIsWrongWithAPort) {
 TEST(SerialStream, RefusesAddressesThatAreNone) {
   for (const char* port : {"tcp:glove:", "tcp:glove:0", "tcp:glove:65536", "tcp:glove:6a"})
     EXPECT_THROW(stream_to(port), std::invalid_argument) << port;
+  EXPECT_THROW(SerialStream("tcp:glove", 3000000), std::invalid_argument) << "no port, and no default";
 }
 
 TEST(SerialStream, HasThePortForItself) {

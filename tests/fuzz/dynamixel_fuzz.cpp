@@ -14,6 +14,7 @@
 #include "dynamixel/measuring_board.h"
 #include "dynamixel/packet.h"
 #include "dynamixel/registers.h"
+#include "elastic_finger.h"
 #include "fuzz_target.h"
 
 namespace glissade::fuzz {

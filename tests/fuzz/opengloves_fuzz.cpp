@@ -6,7 +6,7 @@
 #include <string>
 
 #include "fuzz_target.h"
-#include "opengloves/curl_map.h"
+#include "opengloves/curl_limits.h"
 #include "opengloves/line_codec.h"
 
 namespace glissade::fuzz {

@@ -1,9 +1,10 @@
-/// `glissade bridge opengloves` and `glissade emulate opengloves`: bad usage, and ports that are none.
+/// `glissade bridge` and `glissade emulate`: bad usage, and ports that are none.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "glissade_program.h"
+#include "temporary_folder.h"
 
 namespace glissade::apps {
 namespace {
@@ -20,17 +21,37 @@ TEST(BridgeCommand, RefusesBadUsage) {
   expect_refused({"emulate", "opengloves", "--rate-hz", "0"}, {"rate", "1000 Hz"});
 }
 
+TEST(BridgeCommand, RefusesBadConfigurationsOfServos) {
+  const test_support::TemporaryFolder folder;
+  const std::string file =
+      folder.write("glove.yaml", "name: a\nmodel: XL330-M288\nservos:\n  - {id: 1, joint: nose}\n");
+  expect_refused({"bridge", "dynamixel", "--port", "a"}, {"--config is missing", "--preset", "doglove"});
+  expect_refused({"bridge", "dynamixel", "--port", "a", "--config", file}, {"glove.yaml:4", "'nose' is no joint"});
+  expect_refused({"bridge", "dynamixel", "--port", "a", "--config", "missing.yaml"}, {"missing.yaml"});
+  expect_refused({"bridge", "dynamixel", "--preset", "doglove"}, {"--port is missing"});
+  expect_refused({"bridge", "dynamixel", "--preset", "doglove", "--port", "a"}, {"--board-port is missing"});
+  expect_refused({"bridge", "dynamixel", "--preset", "dogglove", "--port", "a"}, {"--preset", "doglove"});
+  expect_refused({"bridge", "dynamixel", "--preset", "doglove", "--port", "a", "--baud", "100"}, {"baud_rate"});
+  expect_refused({"emulate", "dynamixel"}, {"--config is missing"});
+}
+
 TEST(BridgeCommand, ChecksAPortThatIsNone) {
-  const test_support::ProgramResult result =
+  test_support::ProgramResult result =
       test_support::glissade({"bridge", "opengloves", "--port", "/dev/null", "--check"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.standard_error, "glissade bridge: /dev/null: this is no serial port\n");
+  result = test_support::glissade(
+      {"bridge", "dynamixel", "--preset", "doglove", "--port", "/dev/null", "--board-port", "/dev/null", "--check"});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.standard_error, "glissade bridge: /dev/null: this is no serial port\n");
 }
 
 TEST(BridgeCommand, ListsPorts) {
-  const test_support::ProgramResult result = test_support::glissade({"bridge", "opengloves", "--list"});
-  EXPECT_EQ(result.exit_code, 0);
-  EXPECT_NE(result.standard_output, "");
+  for (const char* device : {"opengloves", "dynamixel"}) {
+    const test_support::ProgramResult result = test_support::glissade({"bridge", device, "--list"});
+    EXPECT_EQ(result.exit_code, 0);
+    EXPECT_NE(result.standard_output, "");
+  }
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "elastic_finger.h"
+
 namespace glissade::bridges::dynamixel {
 namespace {
 

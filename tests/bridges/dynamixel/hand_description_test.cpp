@@ -30,10 +30,12 @@ std::string refusal_of(const DynamixelHand& hand) {
 }
 
 TEST(DynamixelHand, DogloveIsValid) {
-  const devices::DeviceDescriptor device = descriptor_of(doglove());
+  const devices::DeviceDescriptor device = descriptor_of(read_dynamixel_hand("doglove"));
   devices::validate(device);
   EXPECT_EQ(device.finger_command, devices::FingerCommand::kJointLimit);
-  EXPECT_EQ(device.update_rate, 500.0);
+  EXPECT_EQ(device.update_rate, 200.0);
+  EXPECT_EQ(device.max_force, 0.0);
+  EXPECT_GT(device.max_stiffness, 0.0) << "else a server refuses the glove";
   int joints = 0;
   for (std::size_t i = 0; i < device.joint_upper.size(); ++i)
     joints += device.joint_upper[i] > device.joint_lower[i] ? 1 : 0;
@@ -77,7 +79,7 @@ TEST(DynamixelHand, MistakesAreNamed) {
 
 TEST(DynamixelHand, WireNeedsItsLines) {
   EXPECT_THROW(make_dynamixel_wire(one_finger(), nullptr), std::invalid_argument);
-  EXPECT_THROW(make_dynamixel_wire(doglove(), nullptr), std::invalid_argument);
+  EXPECT_THROW(make_dynamixel_wire(read_dynamixel_hand("doglove"), nullptr), std::invalid_argument);
 }
 
 }  // namespace

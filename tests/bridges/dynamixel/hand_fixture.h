@@ -15,9 +15,10 @@
 #include <glissade/devices/safety_envelope.h>
 
 #include "dynamixel/emulated_bus.h"
-#include "dynamixel/emulated_line.h"
-#include "dynamixel/faulty_device.h"
 #include "dynamixel/hand_wire.h"
+#include "elastic_finger.h"
+#include "emulation/emulated_line.h"
+#include "emulation/faulty_device.h"
 
 namespace glissade::bridges::dynamixel {
 

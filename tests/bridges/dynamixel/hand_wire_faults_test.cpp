@@ -128,7 +128,7 @@ TEST_F(HandWithFaults, LimitsHoldOnANoisyLine) {
   // 6 of 100 packets are lost, and two packets make a measurement. A lost one takes the patience of 5 ms.
   EXPECT_GT(measured, 700);
   EXPECT_NEAR(index_angle(), 2.85 / 5.5, 0.006);
-  EXPECT_GT(wire_->bus_statistics().missing_answers, 10U);
+  EXPECT_GT(wire_->traffic().missing_answers, 10U);
 }
 
 TEST_F(HandWithFaults, SlowAnswersAreAwaitedWithinThePatience) {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <glissade/bridges/dynamixel_emulation.h>
-
 #include "dynamixel/emulated_board.h"
+#include "dynamixel/emulated_glove.h"
+#include "hand/finger_curls.h"
 #include "hand_fixture.h"
 
 namespace glissade::bridges::dynamixel {
@@ -96,16 +96,11 @@ TEST_F(HandWire, ReleaseTurnsTheTorqueOff) {
   limit_of_index() = {.upper = 0.5, .stiffness = 5.0, .max_torque = 0.17};
   index_->aim = kZero_rad + 0.7;
   run_for(milliseconds(500));
+  EXPECT_FALSE(wire_->traffic().is_free);
+  EXPECT_TRUE(wire_->traffic().holds[0]);
   wire_->release();
   EXPECT_EQ(servo(1).get(kTorqueEnable), 0);
-}
-
-TEST_F(HandWire, AnotherProcessCanReleaseTheHand) {
-  limit_of_index() = {.upper = 0.5, .stiffness = 5.0, .max_torque = 0.17};
-  index_->aim = kZero_rad + 0.7;
-  run_for(milliseconds(500));
-  release_servos(hand_, *line_);
-  EXPECT_EQ(servo(1).get(kTorqueEnable), 0);
+  EXPECT_TRUE(wire_->traffic().is_free);
 }
 
 TEST_F(HandWire, WatchdogStopsAServoThatHearsNothing) {
@@ -126,7 +121,7 @@ TEST_F(HandWire, HandThatComesBackAfterTheWatchdogIsHeldAgain) {
   run_for(milliseconds(500));
   clock_->advance(milliseconds(100));
   run_for(milliseconds(1000));
-  EXPECT_EQ(wire_->restarted_watchdogs(), 1U);
+  EXPECT_EQ(wire_->traffic().restarted_watchdogs, 1U);
   EXPECT_EQ(servo(1).get(kBusWatchdog), 3);
   EXPECT_NEAR(index_angle(), 2.85 / 5.5, kBacklash_rad);
 }
@@ -135,7 +130,7 @@ TEST_F(HandWire, WatchdogSleepsWhileTheTorqueIsOff) {
   run_for(milliseconds(100));
   clock_->advance(milliseconds(500));
   run_for(milliseconds(100));
-  EXPECT_EQ(wire_->restarted_watchdogs(), 0U);
+  EXPECT_EQ(wire_->traffic().restarted_watchdogs, 0U);
 }
 
 TEST_F(HandWire, LostTorqueIsSwitchedOnAgain) {
@@ -196,16 +191,20 @@ TEST_F(HandOfServos, BoardMeasuresMoreJoints) {
   EXPECT_NEAR(state_.joint_angles[kIndexPip], 0.0, kPositionUnit_rad);
 }
 
-TEST_F(HandOfServos, DogloveCanBeEmulated) {
-  const EmulatedDynamixelHand emulated = emulate(doglove(), {.cycle = std::chrono::seconds(0)}, clock_);
-  const auto wire = make_dynamixel_wire(doglove(), emulated.bus, emulated.board, clock_);
+TEST_F(HandOfServos, DogloveIsMeasuredByServosAndBoard) {
+  const DynamixelHand doglove = read_dynamixel_hand("doglove");
+  const FingerValues curls{0.2, 0.4, 0.5, 0.6, 0.8};
+  const ServoGlove glove = emulate(doglove, model_of(doglove), [&](std::chrono::nanoseconds) { return curls; });
+  const auto wire = make_dynamixel_wire(doglove, std::make_shared<EmulatedLine>(glove.bus, clock_),
+                                        std::make_shared<EmulatedLine>(glove.board, clock_), clock_);
   wire->open();
-  devices::GloveState state;
   for (int i = 0; i < 500; ++i)
-    wire->read(state);
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  EXPECT_NEAR(state.joint_angles[4], 0.8 * 90 * kDegree, 1e-3) << "index_mcp, measured by the board";
-  EXPECT_NEAR(state.joint_angles[6], 0.8 * 90 * kDegree, 1e-3) << "index_dip, measured by a servo";
+    wire->read(state_);
+  const hands::JointValues wanted = angles_of(curls);
+  constexpr double kTremor_rad = 0.01;
+  EXPECT_NEAR(state_.joint_angles[4], wanted[4], kTremor_rad) << "index_mcp, measured by the board";
+  EXPECT_NEAR(state_.joint_angles[17], wanted[17], kTremor_rad) << "little_dip, measured by a servo";
+  EXPECT_EQ(state_.joint_angles[0], wanted[0]) << "thumb_roll, which nothing measures: opposite to the palm";
 }
 
 }  // namespace

@@ -7,8 +7,9 @@
 
 #include "bytes.h"
 #include "dynamixel/emulated_bus.h"
-#include "dynamixel/emulated_line.h"
-#include "dynamixel/faulty_device.h"
+#include "elastic_finger.h"
+#include "emulation/emulated_line.h"
+#include "emulation/faulty_device.h"
 
 namespace glissade::bridges::dynamixel {
 namespace {

@@ -1,22 +1,12 @@
 #pragma once
 
-/// What the horn of an emulated servo turns.
+/// A finger with a closed form, at the horn of an emulated servo.
 
 #include <cmath>
 
+#include "dynamixel/horn_load.h"
+
 namespace glissade::bridges::dynamixel {
-
-/// A load at the horn, in the horn's coordinates. Models of hands implement it.
-class HornLoad {
- public:
-  virtual ~HornLoad() = default;
-
-  virtual double angle() const noexcept = 0;  ///< rad
-  virtual double rate() const noexcept = 0;   ///< rad/s
-
-  /// Lets `dt` (seconds) pass under the servo's torque (Nm).
-  virtual void step(double torque, double dt) noexcept = 0;
-};
 
 /// A finger of the first order, without mass: the wearer pulls it toward `aim` by a spring, against the viscous
 /// friction of finger and gear. Exact for a constant torque.

@@ -4,6 +4,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
+
+#include <poll.h>
 
 namespace glissade::bridges {
 
@@ -25,6 +28,11 @@ class EmulatedPort {
 
   /// What a host opens; empty if there is no plug in and no link.
   const std::string& name() const noexcept { return name_; }
+
+  /// The rate that the host has set; 0 if it has set none, and by TCP.
+  unsigned baud_rate() const noexcept;
+  /// Adds what to wait for until the host sends bytes or connects.
+  void add_to(std::vector<pollfd>& waiting) const;
 
   /// The bytes that have come from the host. Does not wait.
   std::string read();

@@ -1,14 +1,14 @@
 #pragma once
 
 /// A device at the other end of a line, emulated: it gets bytes and sends bytes, at given times. `EmulatedLine` puts it
-/// behind a ByteStream on a simulated clock, `PseudoTerminal` behind a terminal of this machine.
+/// behind a ByteStream on a simulated clock, `PortRunner` behind a port of this machine.
 
 #include <chrono>
 #include <optional>
 #include <string>
 #include <string_view>
 
-namespace glissade::bridges::dynamixel {
+namespace glissade::bridges {
 
 /// Times are those of the caller's clock, and never go back. Not thread-safe.
 class EmulatedDevice {
@@ -25,4 +25,4 @@ class EmulatedDevice {
   virtual std::optional<std::chrono::nanoseconds> next_time() const = 0;
 };
 
-}  // namespace glissade::bridges::dynamixel
+}  // namespace glissade::bridges

@@ -1,4 +1,4 @@
-#include "opengloves/emulated_port.h"
+#include "emulation/emulated_port.h"
 
 #include <array>
 #include <cerrno>
@@ -12,6 +12,8 @@
 #include <sys/socket.h>
 #include <termios.h>
 #include <unistd.h>
+
+#include "stream/baud_rate.h"
 
 namespace glissade::bridges {
 namespace {
@@ -115,6 +117,16 @@ void EmulatedPort::accept_host() noexcept {
   if (host < 0) return;
   close_if_open(device_);
   device_ = host;
+}
+
+unsigned EmulatedPort::baud_rate() const noexcept {
+  return host_ < 0 ? 0 : bridges::baud_rate(host_);
+}
+
+void EmulatedPort::add_to(std::vector<pollfd>& waiting) const {
+  for (const int descriptor : {device_, listener_}) {
+    if (descriptor >= 0) waiting.push_back({descriptor, POLLIN, 0});
+  }
 }
 
 std::string EmulatedPort::read() {

@@ -5,18 +5,14 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <glissade/bridges/opengloves_emulator.h>
 #include <glissade/bridges/opengloves_wire.h>
-#include <glissade/devices/lcm_glove.h>
-#include <glissade/devices/safety_envelope.h>
-#include <glissade/realtime/clock.h>
 
-#include "glissade_program.h"
+#include "limiting_server.h"
 #include "temporary_folder.h"
 
 namespace glissade::apps {
@@ -26,50 +22,11 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t kIndexMcp = 4;
 
-/// A server that answers each state of the glove with a limit of the index finger, in the middle of its way.
-class LimitingServer {
- public:
-  LimitingServer() : thread_([this](const std::stop_token& stop) { serve(stop); }) {}
-
- private:
-  void serve(const std::stop_token& stop) {
-    const auto descriptor = bridges::opengloves_descriptor();
-    devices::LcmGlove glove(std::make_shared<devices::LcmBus>(test_support::kUrl), descriptor);
-    devices::SafetyEnvelope envelope(descriptor);
-    realtime::SteadyClock clock;
-    for (std::int64_t sequence = 1; !stop.stop_requested(); ++sequence) {
-      std::this_thread::sleep_for(milliseconds(2));
-      devices::GloveState state;
-      if (!glove.read(state)) continue;
-      devices::GloveCommand wanted;
-      wanted.sequence = sequence;
-      wanted.state_sequence = state.sequence;
-      wanted.state_time = state.time;
-      wanted.time = clock.now();
-      wanted.joint_limits.joints[kIndexMcp] = {.upper = 0.5 * descriptor.joint_upper[kIndexMcp],
-                                               .stiffness = descriptor.max_limit_stiffness,
-                                               .max_torque = descriptor.max_joint_torque};
-      glove.command(envelope.limit(wanted, state, clock.now()));
-    }
-  }
-
-  std::jthread thread_;
-};
-
-/// How long it takes until `condition` holds, at most ten seconds.
-template <typename Condition>
-std::chrono::duration<double> time_until(Condition condition) {
-  const auto start = std::chrono::steady_clock::now();
-  while (!condition() && std::chrono::steady_clock::now() - start < std::chrono::seconds(10))
-    std::this_thread::sleep_for(milliseconds(1));
-  return std::chrono::steady_clock::now() - start;
-}
-
-class BridgeProcess : public testing::Test {
+class OpenGlovesBridgeProcess : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
-    bridges::EmulatorOptions options;
+    bridges::OpenGlovesEmulatorOptions options;
     options.link = folder.path("glove");
     options.wearer = [](std::chrono::nanoseconds) { return bridges::FingerValues{}; };
     glove = std::make_unique<bridges::OpenGlovesEmulator>(options);
@@ -88,17 +45,17 @@ class BridgeProcess : public testing::Test {
   const test_support::TemporaryFolder folder;
   std::unique_ptr<bridges::OpenGlovesEmulator> glove;
   std::unique_ptr<test_support::Process> bridge;
-  LimitingServer server;
+  LimitingServer server{bridges::opengloves_descriptor(), kIndexMcp};
 };
 
-TEST_F(BridgeProcess, ReleasesTheServosAlthoughItIsKilled) {
+TEST_F(OpenGlovesBridgeProcess, ReleasesTheServosAlthoughItIsKilled) {
   ASSERT_TRUE(is_stopped_at_the_middle()) << bridge->standard_error();
   bridge->signal(SIGKILL);
   EXPECT_LT(time_until_free(), milliseconds(100));
   EXPECT_EQ(bridge->wait().exit_code, -SIGKILL);
 }
 
-TEST_F(BridgeProcess, ReleasesTheServosAlthoughItHangs) {
+TEST_F(OpenGlovesBridgeProcess, ReleasesTheServosAlthoughItHangs) {
   ASSERT_TRUE(is_stopped_at_the_middle()) << bridge->standard_error();
   bridge->signal(SIGSTOP);
   EXPECT_LT(time_until_free(), milliseconds(200));
@@ -106,7 +63,13 @@ TEST_F(BridgeProcess, ReleasesTheServosAlthoughItHangs) {
   EXPECT_TRUE(is_stopped_at_the_middle());
 }
 
-TEST_F(BridgeProcess, EndsWithinASecondAndReleasesTheServos) {
+TEST_F(OpenGlovesBridgeProcess, ReleasesTheServosWhenTheServerIsSilent) {
+  ASSERT_TRUE(is_stopped_at_the_middle()) << bridge->standard_error();
+  server.fall_silent();
+  EXPECT_LT(time_until_free(), milliseconds(100));
+}
+
+TEST_F(OpenGlovesBridgeProcess, EndsWithinASecondAndReleasesTheServos) {
   ASSERT_TRUE(is_stopped_at_the_middle()) << bridge->standard_error();
   const auto start = std::chrono::steady_clock::now();
   bridge->signal(SIGINT);
@@ -118,7 +81,7 @@ TEST_F(BridgeProcess, EndsWithinASecondAndReleasesTheServos) {
   EXPECT_THAT(result.standard_error, testing::HasSubstr("the device is connected"));
 }
 
-TEST_F(BridgeProcess, ComesBackWhenTheGloveIsPluggedInAgain) {
+TEST_F(OpenGlovesBridgeProcess, ComesBackWhenTheGloveIsPluggedInAgain) {
   ASSERT_TRUE(is_stopped_at_the_middle()) << bridge->standard_error();
   glove->unplug();
   time_until([&] { return bridge->standard_error().find("unplugged") != std::string::npos; });

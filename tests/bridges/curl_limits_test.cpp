@@ -1,13 +1,15 @@
 /// Curls of fingers, angles of joints, and limits of both.
 
-#include "opengloves/curl_map.h"
+#include "opengloves/curl_limits.h"
 
 #include <limits>
 #include <numbers>
 
 #include <gtest/gtest.h>
 
-#include <glissade/bridges/opengloves_wire.h>
+#include <glissade/bridges/opengloves.h>
+
+#include "hand/finger_curls.h"
 
 namespace glissade::bridges {
 namespace {
@@ -56,43 +58,54 @@ TEST(Angles, AreThoseOfTheDescriptor) {
   EXPECT_EQ(glove.finger_command, devices::FingerCommand::kCurlLimit);
   EXPECT_EQ(glove.max_force, 0.0);
   EXPECT_GT(devices::passive_limit_stiffness(glove), 0.0);
+  EXPECT_EQ(glove.max_joint_torque, opengloves_model().string.torque) << "the numbers of the preset";
   EXPECT_EQ(glove.joint_upper[kIndexMiddleJoint], angles_of({1, 1, 1, 1, 1})[kIndexMiddleJoint]);
   EXPECT_EQ(glove.joint_upper[kPalmArch], 0.0) << "a joint that the glove lacks";
 }
 
 TEST(CurlLimit, IsFreeWithoutLimits) {
-  EXPECT_EQ(curl_limits({}, kTorque), (FingerValues{1, 1, 1, 1, 1}));
+  EXPECT_EQ(curl_limits({}, FingerValues{}, kTorque), (FingerValues{1, 1, 1, 1, 1}));
   EXPECT_EQ(limit_numbers({1, 1, 1, 1, 1}, {}), (FingerNumbers{0, 0, 0, 0, 0}));
 }
 
-TEST(CurlLimit, IsWhereTheFirstJointIsAtItsLimit) {
+TEST(CurlLimit, IsWhereAJointThatIsAloneLimitedIsAtItsLimit) {
+  const devices::JointLimits limits = limit_at(kIndexInnerJoint, 40 * kRadiansPerDegree);
+  EXPECT_NEAR(curl_limits(limits, FingerValues{}, kTorque)[1], 0.5, 1e-12);
+  EXPECT_NEAR(curl_limits(limits, {0.3, 0.3, 0.3, 0.3, 0.3}, kTorque)[1], 0.5, 1e-12) << "wherever the finger is";
+  EXPECT_NEAR(curl_limits(limits, {0.6, 0.6, 0.6, 0.6, 0.6}, kTorque)[1], 0.5, 1e-12) << "also beyond it";
+  EXPECT_EQ(curl_limits(limits, FingerValues{}, kTorque)[2], 1.0) << "of this finger only";
+}
+
+// A contact at the fingertip closes when the inner joint alone turns by 40°, or the middle one alone by 30°. At a curl
+// of c they turn by 80° c and 100° c together.
+TEST(CurlLimit, IsWhereAContactOfAllJointsCloses) {
   devices::JointLimits limits = limit_at(kIndexInnerJoint, 40 * kRadiansPerDegree);
-  EXPECT_NEAR(curl_limits(limits, kTorque)[1], 0.5, 1e-12);
   limits.joints[kIndexMiddleJoint] = {.upper = 30 * kRadiansPerDegree, .stiffness = 1.0, .max_torque = kTorque};
-  EXPECT_NEAR(curl_limits(limits, kTorque)[1], 0.3, 1e-12);
-  EXPECT_EQ(curl_limits(limits, kTorque)[2], 1.0) << "of this finger only";
+  EXPECT_NEAR(curl_limits(limits, FingerValues{}, kTorque)[1], 1.0 / (80.0 / 40.0 + 100.0 / 30.0), 1e-12);
 }
 
 TEST(CurlLimit, CountsAJointWhoseAngleFallsAsTheFingerCloses) {
   devices::JointLimits limits;
   const double half = angles_of({0.5, 0, 0, 0, 0})[kThumbAbduction];
   limits.joints[kThumbAbduction] = {.lower = half, .stiffness = 1.0, .max_torque = kTorque};
-  EXPECT_NEAR(curl_limits(limits, kTorque)[0], 0.5, 1e-12);
-  EXPECT_EQ(curl_limits(limit_at(kThumbAbduction, half), kTorque)[0], 1.0) << "against opening";
+  EXPECT_NEAR(curl_limits(limits, FingerValues{}, kTorque)[0], 0.5, 1e-12);
+  EXPECT_EQ(curl_limits(limit_at(kThumbAbduction, half), FingerValues{}, kTorque)[0], 1.0) << "against opening";
 }
 
 TEST(CurlLimit, OpensAsItsTorqueFades) {
   const double upper = 40 * kRadiansPerDegree;
-  EXPECT_NEAR(curl_limits(limit_at(kIndexInnerJoint, upper, 0.5 * kTorque), kTorque)[1], 0.75, 1e-12);
-  EXPECT_EQ(curl_limits(limit_at(kIndexInnerJoint, upper, 0.0), kTorque)[1], 1.0);
+  EXPECT_NEAR(curl_limits(limit_at(kIndexInnerJoint, upper, 0.5 * kTorque), FingerValues{}, kTorque)[1], 0.75, 1e-12);
+  EXPECT_EQ(curl_limits(limit_at(kIndexInnerJoint, upper, 0.0), FingerValues{}, kTorque)[1], 1.0);
 }
 
 TEST(CurlLimit, IgnoresWhatTheGloveCannotHold) {
   devices::JointLimits lower;
   lower.joints[kIndexInnerJoint] = {.lower = 1.0, .stiffness = 1.0, .max_torque = kTorque};
-  EXPECT_EQ(curl_limits(lower, kTorque)[1], 1.0) << "it does not pull fingers closed";
-  EXPECT_EQ(curl_limits(limit_at(kPalmArch, 0.1), kTorque), (FingerValues{1, 1, 1, 1, 1}));
-  EXPECT_EQ(curl_limits(limit_at(kIndexInnerJoint, std::numeric_limits<double>::quiet_NaN()), kTorque)[1], 1.0);
+  EXPECT_EQ(curl_limits(lower, FingerValues{}, kTorque)[1], 1.0) << "it does not pull fingers closed";
+  EXPECT_EQ(curl_limits(limit_at(kPalmArch, 0.1), FingerValues{}, kTorque), (FingerValues{1, 1, 1, 1, 1}));
+  EXPECT_EQ(
+      curl_limits(limit_at(kIndexInnerJoint, std::numeric_limits<double>::quiet_NaN()), FingerValues{}, kTorque)[1],
+      1.0);
 }
 
 TEST(LimitNumbers, RoundToTheFreerSide) {

@@ -1,9 +1,9 @@
-#include "dynamixel/faulty_device.h"
+#include "emulation/faulty_device.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace glissade::bridges::dynamixel {
+namespace glissade::bridges {
 
 FaultyDevice::FaultyDevice(std::shared_ptr<EmulatedDevice> device, std::uint64_t seed)
     : device_(std::move(device)), random_(seed) {}
@@ -55,4 +55,4 @@ std::optional<std::chrono::nanoseconds> FaultyDevice::next_time() const {
   return time;
 }
 
-}  // namespace glissade::bridges::dynamixel
+}  // namespace glissade::bridges

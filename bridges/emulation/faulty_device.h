@@ -8,18 +8,11 @@
 #include <memory>
 #include <random>
 
-#include "dynamixel/emulated_device.h"
+#include <glissade/bridges/emulator.h>
 
-namespace glissade::bridges::dynamixel {
+#include "emulation/emulated_device.h"
 
-/// What may happen to the bytes of one answer or frame. Shares are from 0 to 1.
-struct LineFaults {
-  double garbage = 0.0;                  ///< share that follows up to 20 random bytes
-  double cut = 0.0;                      ///< share of which only a first part arrives
-  double flipped_bit = 0.0;              ///< share with one wrong bit
-  bool has_echo = false;                 ///< the host hears its own bytes
-  std::chrono::nanoseconds slowness{0};  ///< added to the time of all bytes
-};
+namespace glissade::bridges {
 
 /// The device behind a faulty line. The same seed gives the same faults.
 class FaultyDevice final : public EmulatedDevice {
@@ -46,4 +39,4 @@ class FaultyDevice final : public EmulatedDevice {
   std::deque<Late> late_;
 };
 
-}  // namespace glissade::bridges::dynamixel
+}  // namespace glissade::bridges

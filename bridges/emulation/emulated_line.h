@@ -10,9 +10,9 @@
 #include <glissade/bridges/wire.h>
 #include <glissade/realtime/clock.h>
 
-#include "dynamixel/emulated_device.h"
+#include "emulation/emulated_device.h"
 
-namespace glissade::bridges::dynamixel {
+namespace glissade::bridges {
 
 /// The device's time starts at 0 with the line. On a simulated clock, waiting for bytes lets the time pass. Devices on
 /// other lines advance when their bytes are read.
@@ -28,6 +28,8 @@ class EmulatedLine final : public ByteStream {
     device_->send_until(now());
   }
   void close() noexcept override { is_open_ = false; }
+  bool is_open() const noexcept override { return is_open_; }
+  int descriptor() const noexcept override { return -1; }
   void write(std::string_view bytes) override {
     require_connection();
     device_->receive(bytes, now());
@@ -58,4 +60,4 @@ class EmulatedLine final : public ByteStream {
   bool is_open_ = false;
 };
 
-}  // namespace glissade::bridges::dynamixel
+}  // namespace glissade::bridges

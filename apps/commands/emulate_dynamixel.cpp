@@ -1,0 +1,91 @@
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <memory>
+#include <numbers>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/dynamixel_option.h>
+#include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/text.h>
+#include <glissade/bridges/dynamixel_emulator.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kDynamixelFooter =
+    "Prints the port of its bus on standard output and, on a second line, that of its measuring board if it has one. "
+    "A\n"
+    "wearer closes and opens all fingers, each a little later than the one before, against the servos. Faults:\n"
+    "'garbage' before one packet in fifty, one packet in fifty 'cut' or with 'wrong-bits', 'echo' of all that "
+    "arrives,\n"
+    "'slow' (each answer comes 3 ms late), 'unplug' at random.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade emulate dynamixel --preset doglove --seconds 2\n"
+    "  glissade emulate dynamixel --preset doglove --link servos --board-link board --fault wrong-bits unplug "
+    "--seconds 4 "
+    "& glissade bridge dynamixel --preset doglove --port servos --board-port board --seconds 4";
+
+struct DynamixelEmulation {
+  EmulateOptions emulate;
+  DynamixelOption hand;
+  std::string link;
+  std::string board_link;
+};
+
+std::string status_of(const bridges::DynamixelHand& hand, const std::vector<bridges::EmulatedServoState>& servos) {
+  std::string text;
+  for (std::size_t i = 0; i < servos.size(); ++i) {
+    text += (i > 0 ? ", " : "") + std::string(hands::kJointNames[static_cast<std::size_t>(hand.servos[i].joint)]) +
+            " " + fixed_text(servos[i].angle * 180.0 / std::numbers::pi, 0) + "° ";
+    text += servos[i].has_torque ? fixed_text(servos[i].torque, 2) + " Nm" : "free";
+  }
+  return text;
+}
+
+int run(const DynamixelEmulation& options) {
+  constexpr double kShare = 0.02;
+  const bridges::DynamixelHand hand = read_hand(options.hand);
+  const StopSignal stop_signal;
+  bridges::DynamixelEmulator emulator(hand,
+                                      {.link = options.link,
+                                       .board_link = options.board_link,
+                                       .faults = line_faults(options.emulate, kShare, std::chrono::milliseconds(3)),
+                                       .seed = options.emulate.seed});
+  std::cout << emulator.port() << std::endl;  // for a program that waits for it
+  if (!emulator.board_port().empty()) std::cout << emulator.board_port() << std::endl;
+  double greatest_Nm = 0.0;
+  const auto status = [&] {
+    const auto servos = emulator.servos();
+    for (const bridges::EmulatedServoState& servo : servos)
+      greatest_Nm = std::max(greatest_Nm, std::abs(servo.torque));
+    return status_of(hand, servos);
+  };
+  run_emulator(options.emulate,
+               {.set_plugged = [&](bool is_in) { is_in ? emulator.plug() : emulator.unplug(); }, .status = status});
+  const auto servos = emulator.servos();
+  const auto held = std::count_if(servos.begin(), servos.end(), [](const auto& servo) { return servo.has_torque; });
+  std::cout << "glissade emulate: greatest torque of a servo " << fixed_text(greatest_Nm, 2) << " Nm, " << held
+            << " servos have torque at the end\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_emulate_dynamixel(CLI::App& emulate, Command& chosen) {
+  const auto options = std::make_shared<DynamixelEmulation>();
+  CLI::App* glove = emulate.add_subcommand("dynamixel", "A glove of Dynamixel servos");
+  glove->footer(kDynamixelFooter);
+  add_dynamixel_option(*glove, options->hand);
+  glove->add_option("--link", options->link, "Path of a link to the port of the bus, which stays after unplugging");
+  glove->add_option("--board-link", options->board_link, "The same for the measuring board");
+  add_emulate_options(*glove, options->emulate);
+  glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

@@ -1,0 +1,93 @@
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
+#include <glissade/bridges/opengloves_emulator.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kOpenGlovesFooter =
+    "Prints its port on standard output. A wearer closes and opens all fingers, each a little later than the one\n"
+    "before, within the limits of the servos. Faults: 'garbage' before one state in ten, one state in ten 'cut' or\n"
+    "with 'wrong-bits', 'echo' of all that arrives, 'slow' (each state comes 0.1 s late), 'unplug' at random.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade emulate opengloves --seconds 2\n"
+    "  glissade emulate opengloves --link glove_port --fault garbage unplug --seconds 4 & glissade bridge opengloves "
+    "--port glove_port --seconds 4";
+
+struct OpenGlovesEmulation {
+  EmulateOptions emulate;
+  std::string encoding = "alpha";
+  std::string link;
+  int tcp_port = 0;
+  double rate_Hz = 90.0;
+  int full_scale = 4095;
+};
+
+bridges::OpenGlovesEmulatorOptions emulator_options(const OpenGlovesEmulation& options) {
+  constexpr double kShare = 0.1;
+  bridges::OpenGlovesEmulatorOptions emulator;
+  emulator.encoding =
+      options.encoding == "alpha" ? bridges::OpenGlovesEncoding::kAlpha : bridges::OpenGlovesEncoding::kLegacy;
+  emulator.rate_Hz = options.rate_Hz;
+  emulator.full_scale = options.full_scale;
+  emulator.link = options.link;
+  emulator.is_tcp = options.tcp_port > 0;
+  emulator.tcp_port = static_cast<unsigned short>(options.tcp_port);
+  emulator.faults = line_faults(options.emulate, kShare, std::chrono::milliseconds(100));
+  emulator.seed = options.emulate.seed;
+  return emulator;
+}
+
+std::string status_of(const bridges::EmulatedGlove& glove) {
+  std::string text = "curls";
+  for (const double curl : glove.curls)
+    text += " " + fixed_text(curl, 2);
+  text += ", limits";
+  for (const int limit : glove.limits)
+    text += " " + std::to_string(limit);
+  return text;
+}
+
+int run(const OpenGlovesEmulation& options) {
+  const StopSignal stop_signal;
+  bridges::OpenGlovesEmulator emulator(emulator_options(options));
+  std::cout << emulator.port() << std::endl;  // for a program that waits for it
+  run_emulator(options.emulate, {.set_plugged = [&](bool is_in) { is_in ? emulator.plug() : emulator.unplug(); },
+                                 .status = [&] { return status_of(emulator.state()); }});
+  const bridges::EmulatedGlove glove = emulator.state();
+  std::cout << "glissade emulate: " << glove.limit_lines << " lines with limits, " << glove.stopping_lines
+            << " of them stop a finger\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_emulate_opengloves(CLI::App& emulate, Command& chosen) {
+  const auto options = std::make_shared<OpenGlovesEmulation>();
+  CLI::App* glove = emulate.add_subcommand("opengloves", "A glove with the firmware of LucidGloves");
+  glove->footer(kOpenGlovesFooter);
+  CLI::Option* link =
+      glove->add_option("--link", options->link, "Path of a link to the port, which stays the same after unplugging");
+  glove->add_option("--tcp", options->tcp_port, "TCP port of this machine in place of a serial port")
+      ->check(CLI::Range(1, 65535))
+      ->excludes(link);
+  glove->add_option("--encoding", options->encoding, "Encoding of the lines")
+      ->check(one_of({"alpha", "legacy"}))
+      ->capture_default_str();
+  glove->add_option("--rate-hz", options->rate_Hz, "States per second, at most; 1 to 1000")->capture_default_str();
+  glove->add_option("--full-scale", options->full_scale, "Number of a closed finger")->capture_default_str();
+  add_emulate_options(*glove, options->emulate);
+  glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps

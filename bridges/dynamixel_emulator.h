@@ -1,0 +1,54 @@
+#pragma once
+
+/// A glove of Dynamixel servos without hardware, behind pseudo-terminals, with the fingers of a wearer. For tests of
+/// the bridge, and for everybody who has no such glove.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glissade/bridges/dynamixel_hand.h>
+#include <glissade/bridges/emulator.h>
+
+namespace glissade::bridges {
+
+struct DynamixelEmulatorOptions {
+  std::string link;                     ///< path of a link to the port of the bus, which stays the same; empty: none
+  std::string board_link;               ///< the same for the measuring board
+  LineFaults faults;                    ///< of both lines
+  std::uint64_t seed = 1;               ///< of the faults
+  EmulatedWearer wearer = busy_wearer;  ///< in the thread of the emulator
+};
+
+/// What a servo does to its joint.
+struct EmulatedServoState {
+  bool has_torque = false;
+  double torque = 0.0;  ///< on the joint, Nm
+  double angle = 0.0;   ///< of the joint, rad
+};
+
+/// Runs in a thread of its own from construction to destruction. The dynamics are those of the preset "dynamixel".
+class DynamixelEmulator {
+ public:
+  /// Throws what `validate` throws for the hand; std::system_error if the system refuses a port.
+  explicit DynamixelEmulator(const DynamixelHand& hand, const DynamixelEmulatorOptions& options = {});
+  ~DynamixelEmulator();
+
+  /// For `SerialStream`: the link if there is one. Any thread, as the functions below.
+  std::string port() const;
+  /// Empty without measured joints.
+  std::string board_port() const;
+  /// In the order of the hand's servos.
+  std::vector<EmulatedServoState> servos() const;
+  /// The ports vanish, as if the plug of the adapter were pulled; and come back. The servos have their own supply.
+  void unplug();
+  void plug();
+
+ private:
+  struct Parts;
+
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace glissade::bridges
