@@ -29,8 +29,8 @@ std::optional<BookedMotion> StateCheck::observe(const GloveState& state, nanosec
   const bool plausible = is_plausible(state);
   if (!plausible) distrust_until_ = now + kEnvelope.distrust;
   const bool catches_up = !plausible && may_have_gone_to(state);
-  update_offset(state, now);
-  const nanoseconds measured = state.time + offset_;
+  clock_.observe(state.time, now);
+  const nanoseconds measured = state.time + clock_.value();
   // Where the clock does not go on, the way counts once it does. After a jump that may be the way of a hand whose pose
   // stood still for a while, it counts once the states are plausible again.
   const bool goes_on = has_state_ && (plausible || catches_up) && state.time >= booked_.time;
@@ -76,25 +76,6 @@ bool StateCheck::may_have_gone_to(const GloveState& state) const noexcept {
   const double repeated_s = std::min(in_seconds(state.time - pose_time_), kEnvelope.longest_repeat_s);
   const double seconds = std::max(repeated_s, kEnvelope.much_faster * in_seconds(state.time - state_.time));
   return way <= descriptor_.max_speed * seconds + kEnvelope.jump_tolerance_m;
-}
-
-void StateCheck::update_offset(const GloveState& state, nanoseconds now) noexcept {
-  const nanoseconds difference = now - state.time;
-  const bool is_first = !has_state_ || state.time < state_.time;
-  // A clock that stands still does not go wrong, it fails.
-  const bool is_late_for_good = late_since_ && now - *late_since_ > kEnvelope.late_for_good &&
-                                state.time - late_time_ > kEnvelope.late_for_good / 2;
-  if (is_first || is_late_for_good) {
-    offset_ = difference;
-  } else {
-    offset_ = std::min(offset_ + (state.time - state_.time) / kEnvelope.drift_share, difference);
-  }
-  if (difference - offset_ <= patience_) {
-    late_since_.reset();
-  } else if (!late_since_) {
-    late_since_ = now;
-    late_time_ = state.time;
-  }
 }
 
 LimitReasons StateCheck::faults(const GloveCommand& wanted, const GloveState& newest, nanoseconds link_delay,

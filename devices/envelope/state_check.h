@@ -7,6 +7,8 @@
 
 #include <glissade/devices/glove_device.h>
 
+#include "envelope/clock_difference.h"
+
 namespace glissade::devices {
 
 /// The hand's motion between two states.
@@ -22,7 +24,7 @@ class StateCheck {
  public:
   /// `patience` is the greatest age of a state, and that of a command beyond the delay of its link.
   StateCheck(const DeviceDescriptor& descriptor, std::chrono::nanoseconds patience)
-      : descriptor_(descriptor), patience_(patience) {}
+      : descriptor_(descriptor), patience_(patience), clock_(patience) {}
 
   /// Looks at the newest state. Returns the motion whose work is to be counted, if there is one.
   std::optional<BookedMotion> observe(const GloveState& state, std::chrono::nanoseconds now) noexcept;
@@ -35,7 +37,7 @@ class StateCheck {
 
   /// Time at `now` since a measurement.
   std::chrono::nanoseconds age_of(std::chrono::nanoseconds measured, std::chrono::nanoseconds now) const noexcept {
-    return now - offset_ - measured;
+    return now - clock_.value() - measured;
   }
 
   /// The newest finite one.
@@ -44,19 +46,16 @@ class StateCheck {
  private:
   bool is_plausible(const GloveState& state) const noexcept;
   bool may_have_gone_to(const GloveState& state) const noexcept;
-  void update_offset(const GloveState& state, std::chrono::nanoseconds now) noexcept;
 
   const DeviceDescriptor& descriptor_;
   std::chrono::nanoseconds patience_;
   bool has_state_ = false;
   GloveState state_;
-  GloveState booked_;                                   // up to which its work is booked
-  std::chrono::nanoseconds booked_at_{0};               // when it was measured, on the caller's clock
-  std::chrono::nanoseconds pose_time_{0};               // since when the pose repeats to the bit
-  bool has_caught_up_ = false;                          // the last states jumped after poses that repeated
-  std::chrono::nanoseconds offset_{0};                  // caller's clock minus glove's clock
-  std::chrono::nanoseconds late_time_{0};               // the time of that state
-  std::optional<std::chrono::nanoseconds> late_since_;  // when the first state came that was late, as all after it
+  GloveState booked_;                      // up to which its work is booked
+  std::chrono::nanoseconds booked_at_{0};  // when it was measured, on the caller's clock
+  std::chrono::nanoseconds pose_time_{0};  // since when the pose repeats to the bit
+  bool has_caught_up_ = false;             // the last states jumped after poses that repeated
+  ClockDifference clock_;                  // of the caller and the glove
   std::chrono::nanoseconds distrust_until_{0};
 };
 
