@@ -257,6 +257,7 @@ struct GloveInfo {
   std::int64_t session = 0;  ///< random number that the glove's process draws at its start
   hands::HandSide side = hands::HandSide::kUnknown;
   DeviceDescriptor descriptor;
+  bool is_calibrated = false;  ///< whether a `Calibration` of the wearer is applied to its states
 };
 
 class SafeCommand;

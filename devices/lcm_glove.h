@@ -19,7 +19,9 @@
 #include <string>
 #include <vector>
 
+#include <glissade/devices/calibration.h>
 #include <glissade/devices/glove_device.h>
+#include <glissade/devices/hand_pose.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/realtime/clock.h>
@@ -113,24 +115,32 @@ struct LcmGloveHostOptions {
   /// and back. If the state is older, the force fades. A period is that of the device, but at least 1 ms.
   double patience_periods = 6.0;
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
+  std::optional<Calibration> calibration{};    ///< without a value, the device's angles are those of the hand
+  std::optional<HandPoseOptions> hand_pose{};  ///< where the hand is; without a value, the device measures it
 };
 
 /// The glove driver's end of the link. It announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
-/// commands on GLOVE_COMMAND. At this end, a second envelope limits each command. Thread-safety: one thread, the
-/// driver's, calls `publish` and `newest_command`.
+/// commands on GLOVE_COMMAND. At this end, a second envelope limits each command. The driver passes states as the
+/// device measures them. The host adds the pose of a tracker and applies the calibration, before the envelope and the
+/// server get the state, and turns commands back into angles of the device. Thread-safety: one thread, the driver's,
+/// calls `publish` and `newest_command`.
 class LcmGloveHost {
  public:
-  /// Throws std::invalid_argument when the bus is null or cannot receive, or the descriptor is not valid.
+  /// `descriptor` is that of the bare device. Throws std::invalid_argument when the bus is null or cannot receive; the
+  /// descriptor is not valid; the calibration is not for this device (`check_calibration`); or a device that exerts
+  /// force or torque on the hand is to get its pose from a tracker.
   LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& descriptor,
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
   /// Sends `state` together with the envelope's results of the last `newest_command`. Also sends the announcement when
-  /// it is due. Returns false when the operating system does not accept the state. May block.
+  /// it is due. Returns false when the operating system does not accept the state. Before the first pose of a tracker,
+  /// sends nothing and returns false. May block.
   bool publish(const GloveState& state);
 
   /// The command for the device in this period. Call this function once a period. `newest` is the newest measured
-  /// state. The force is zero before the first command, and fades if the newest command is old. Wait-free.
+  /// state. The force is zero before the first command and before the first pose of a tracker, and fades if the newest
+  /// command is old. Wait-free.
   SafeCommand newest_command(const GloveState& newest) noexcept;
 
   /// Emergency stop: the force fades to zero and stays there. Wait-free, any thread.
@@ -141,10 +151,15 @@ class LcmGloveHost {
   /// Whether another glove has announced itself under the number of this glove since construction. A server listens to
   /// one of the two only. Wait-free, any thread.
   bool shares_number() const noexcept { return shares_number_.load(std::memory_order_relaxed); }
+  /// The tracker of the hand; null if the device measures the pose.
+  const HandPoseSource* hand_pose() const noexcept { return hand_pose_.get(); }
 
  private:
+  bool prepare(GloveState& measured) noexcept;
+
   std::shared_ptr<LcmBus> bus_;
   LcmGloveHostOptions options_;
+  std::unique_ptr<HandPoseSource> hand_pose_;
   std::int64_t session_;
   SafetyEnvelope envelope_;
   SafeCommand last_;

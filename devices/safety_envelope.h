@@ -11,6 +11,8 @@
 
 namespace glissade::devices {
 
+struct Calibration;
+
 /// A command that a device may execute. Only `SafetyEnvelope` makes a `SafeCommand` that is not zero.
 class SafeCommand {
  public:
@@ -29,6 +31,9 @@ class SafeCommand {
   /// Energy (J) that the hand has given back since the last interruption because the server asked for it; see
   /// `GloveCommand::supply`.
   double taken() const noexcept { return taken_; }
+
+  /// The same command in the angles that the device reports (`calibration.h`).
+  SafeCommand for_device(const Calibration& calibration) const noexcept;
 
  private:
   friend class SafetyEnvelope;

@@ -9,11 +9,12 @@ namespace glissade::devices {
 
 SimulatedGloveService::SimulatedGloveService(const std::shared_ptr<LcmBus>& bus, SimulatedGlove glove,
                                              realtime::Clock& clock, const LcmGloveHostOptions& options,
-                                             Observer observer)
+                                             Observer observer, bool waits_for_server)
     : host_(bus, glove.descriptor(), options),
       view_(std::make_unique<WearersView>(bus)),
       glove_(std::move(glove)),
       observer_(std::move(observer)),
+      waits_for_server_(waits_for_server),
       state_(glove_.state()) {
   thread_ = std::make_unique<realtime::PeriodicThread>(
       clock,
@@ -42,7 +43,8 @@ bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   const bool has_server = host_.statistics().accepted > 0;
   const std::chrono::nanoseconds script_before = glove_.script_time();
   const std::int64_t sequence_before = state_.sequence;
-  state_ = glove_.step(passed, command, has_server ? pace_for(age_of_answers(command)) : 0.0);
+  const double pace_without_server = waits_for_server_ ? 0.0 : 1.0;
+  state_ = glove_.step(passed, command, has_server ? pace_for(age_of_answers(command)) : pace_without_server);
   const std::chrono::nanoseconds script_passed = glove_.script_time() - script_before;
   state_.time = deadline - glove_.state_age();  // on the clock of the thread
   if (state_.sequence != sequence_before) send(state_);

@@ -30,9 +30,10 @@ class SimulatedGloveService {
   /// first result false lets the force fade and stay at zero.
   using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
-  /// Throws std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
+  /// If the wearer does not wait for a server, the script follows the clock from the start on. Throws
+  /// std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(const std::shared_ptr<LcmBus>& bus, SimulatedGlove glove, realtime::Clock& clock,
-                        const LcmGloveHostOptions& options = {}, Observer observer = {});
+                        const LcmGloveHostOptions& options = {}, Observer observer = {}, bool waits_for_server = true);
   ~SimulatedGloveService();
 
   /// Elapsed time of the script. Any thread.
@@ -61,7 +62,8 @@ class SimulatedGloveService {
   std::unique_ptr<WearersView> view_;
   SimulatedGlove glove_;
   Observer observer_;  ///< may be empty
-  GloveState state_;   ///< as sent
+  bool waits_for_server_;
+  GloveState state_;  ///< as sent
   std::optional<std::chrono::nanoseconds> last_deadline_;
   std::atomic<std::chrono::nanoseconds> script_time_{std::chrono::nanoseconds(0)};
   std::atomic<std::chrono::nanoseconds> waited_{std::chrono::nanoseconds(0)};

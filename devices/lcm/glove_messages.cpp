@@ -99,6 +99,7 @@ std::vector<std::uint8_t> encode(const GloveInfo& info) {
   message.side = static_cast<std::int32_t>(info.side);
   message.device = info.device;
   message.session = info.session;
+  message.calibrated = info.is_calibrated ? 1 : 0;
   const std::string& name = info.descriptor.name;
   std::copy_n(name.begin(), std::min(name.size(), std::size(message.name) - 1), message.name);
   for_each_limit(message, info.descriptor, [](double& sent, double value) { sent = value; });
@@ -164,6 +165,7 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   fields.time("limit_delay_ns", message.limit_delay_ns);
   fields.between("finger_command", message.finger_command, 0, kFingerCommands - 1);
   fields.between("side", message.side, 0, glove_state_t::SIDE_RIGHT);
+  fields.between("calibrated", message.calibrated, 0, 1);
   fields.between("name", message.name[std::size(message.name) - 1], 0, 0);
   DeviceDescriptor descriptor;
   for_each_limit(message, descriptor, [](double sent, double& value) { value = sent; });
@@ -180,7 +182,8 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   info = {.device = message.device,
           .session = message.session,
           .side = hands::HandSide{message.side},
-          .descriptor = std::move(descriptor)};
+          .descriptor = std::move(descriptor),
+          .is_calibrated = message.calibrated != 0};
   return MessageError::kNone;
 }
 

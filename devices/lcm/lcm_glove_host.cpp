@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <utility>
 
 #include <glissade/devices/lcm_glove.h>
@@ -12,14 +14,27 @@ namespace {
 
 constexpr std::chrono::milliseconds kPeriodOfServers{1};  // a faster glove waits for them
 
+/// What the glove announces.
+DeviceDescriptor announced(const DeviceDescriptor& device, const LcmGloveHostOptions& options) {
+  if (options.calibration) check_calibration(*options.calibration, device, options.side);
+  DeviceDescriptor descriptor = options.calibration ? options.calibration->calibrated(device) : device;
+  if (!options.hand_pose) return descriptor;
+  if (device.max_force > 0.0 || device.max_torque > 0.0)
+    throw std::invalid_argument("The device '" + device.name +
+                                "' exerts force on the hand, so it must measure the pose of the hand itself.");
+  descriptor.update_rate = std::min(descriptor.update_rate, options.hand_pose->rate_Hz);
+  return descriptor;
+}
+
 }  // namespace
 
 LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& descriptor,
                            const LcmGloveHostOptions& options)
     : bus_(checked_bus(std::move(bus), "The host of an LCM glove")),
       options_(options),
+      hand_pose_(options.hand_pose ? std::make_unique<HandPoseSource>(bus_, *options.hand_pose) : nullptr),
       session_(random_session()),
-      envelope_(descriptor, options.patience_periods, kPeriodOfServers),
+      envelope_(announced(descriptor, options), options.patience_periods, kPeriodOfServers),
       monitor_(std::make_unique<LinkMonitor>(options.lease)) {
   subscription_ = bus_->subscribe(kGloveCommandChannel, [this](std::span<const std::uint8_t> message) {
     CommandHeader header;
@@ -41,18 +56,28 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
 
 LcmGloveHost::~LcmGloveHost() = default;
 
+bool LcmGloveHost::prepare(GloveState& measured) noexcept {
+  if (hand_pose_ && !hand_pose_->join(measured)) return false;
+  if (options_.calibration) options_.calibration->apply(measured);
+  return true;
+}
+
 bool LcmGloveHost::publish(const GloveState& state) {
+  GloveState told = state;
+  if (!prepare(told)) return false;
   constexpr std::chrono::milliseconds kAnnouncements{200};
   const std::chrono::nanoseconds now = clock_.now();
   if (!announced_ || now - *announced_ >= kAnnouncements) {
     announced_ = now;
-    const GloveInfo info{
-        .device = options_.device, .session = session_, .side = options_.side, .descriptor = envelope_.descriptor()};
+    const GloveInfo info{.device = options_.device,
+                         .session = session_,
+                         .side = options_.side,
+                         .descriptor = envelope_.descriptor(),
+                         .is_calibrated = options_.calibration.has_value()};
     bus_->publish(kGloveInfoChannel, encode(info));
   }
   const StateHeader header{
       .device = options_.device, .session = session_, .leaseholder = monitor_->leaseholder(now), .side = options_.side};
-  GloveState told = state;
   told.limits = last_.reasons();
   told.command_age = last_.age();
   told.link_delay = envelope_.link_delay();
@@ -64,9 +89,10 @@ bool LcmGloveHost::publish(const GloveState& state) {
 SafeCommand LcmGloveHost::newest_command(const GloveState& newest) noexcept {
   if (should_stop_.load(std::memory_order_relaxed)) envelope_.stop();
   GloveState measured = newest;
+  if (!prepare(measured)) return {};
   measured.link_delay = std::chrono::nanoseconds(0);  // here is the envelope that limits the energy
   last_ = envelope_.limit(commands_.latest(), measured, clock_.now());
-  return last_;
+  return options_.calibration ? last_.for_device(*options_.calibration) : last_;
 }
 
 LinkStatistics LcmGloveHost::statistics() const noexcept {
