@@ -55,6 +55,7 @@ int parse_and_run(int argc, char** argv) {
   add_export_command(app, chosen);
   add_glove_command(app, chosen);
   add_bridge_command(app, chosen);
+  add_calibrate_command(app, chosen);
   add_emulate_command(app, chosen);
   add_view_command(app, chosen);
   add_doctor_command(app, chosen);

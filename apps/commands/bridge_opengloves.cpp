@@ -19,8 +19,9 @@ constexpr const char* kOpenGlovesBridge = "Join a glove with the firmware of Luc
 constexpr const char* kOpenGlovesBridgeFooter =
     "The port is a serial port such as /dev/ttyUSB0 (USB) or /dev/rfcomm0 (Bluetooth), or tcp:HOST for a glove in the\n"
     "network (port 65432, or tcp:HOST:PORT). The bridge finds the encoding, 'alpha' or 'legacy', by itself. The glove\n"
-    "measures the fingers only: the hand stays at --position-m and --orientation-wxyz. After its start, the firmware\n"
-    "scales its numbers to what it has seen, so open and close all fingers once.\n"
+    "measures the fingers only: the hand stays at --position-m and --orientation-wxyz, or goes with a tracker, see\n"
+    "--pose-from. After its start, the firmware scales its numbers to what it has seen, so open and close all fingers\n"
+    "once.\n"
     "The fingers stop where an object stops the visible hand of 'glissade run --fingers'. There is no force on the\n"
     "hand. The servos are released when the server, the glove's states or the bridge are silent, or the bridge ends,\n"
     "even if it is killed. See docs/devices.md in the sources.\n"

@@ -43,6 +43,8 @@ void add_bridge_options(CLI::App& command, BridgeOptions& options) {
       ->capture_default_str();
   add_device_option(command, options.device);
   add_lcm_options(command, options.lcm);
+  add_calibration_option(command, options.link);
+  add_pose_options(command, options.link);
   command.add_option("--position-m", options.position_m, "Position of the hand root in the world, X Y Z")
       ->expected(3)
       ->capture_default_str();
@@ -82,9 +84,9 @@ int run_bridge(const BridgeOptions& options, const BridgedDevice& device) {
   const StopSignal stop_signal;
   StatusLine line;
   const auto say = [&line](const std::string& sentence) { line.say("glissade bridge: " + sentence); };
-  bridges::BridgeOptions bridge{.link = {.device = options.device, .patience_periods = device.patience_periods},
-                                .X_WH = pose_of(options)};
-  bridge.link.side = options.side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
+  const hands::HandSide side = options.side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
+  bridges::BridgeOptions bridge{.link = link_options(options.link, options.device, side), .X_WH = pose_of(options)};
+  bridge.link.patience_periods = device.patience_periods;
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();

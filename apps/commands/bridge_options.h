@@ -9,6 +9,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <glissade/apps/commands/glove_link_options.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/bridges/wire.h>
 #include <glissade/devices/lcm_glove.h>
@@ -22,12 +23,14 @@ struct BridgeOptions {
   std::string side = "right";
   LcmAddress lcm;
   std::int64_t device = devices::kDefaultDevice;
+  GloveLinkOptions link;
   std::vector<double> position_m{0.0, 0.0, 0.0};
   std::vector<double> orientation_wxyz{1.0, 0.0, 0.0, 0.0};
   double seconds = 0.0;
 };
 
-/// --port, --list, --check, --side, --device, --lcm, --position-m, --orientation-wxyz, --seconds.
+/// --port, --list, --check, --side, --device, --lcm, --calibration, --pose-from, --pose-rate-hz, --position-m,
+/// --orientation-wxyz, --seconds.
 void add_bridge_options(CLI::App& command, BridgeOptions& options);
 
 /// Throws std::invalid_argument without --port.

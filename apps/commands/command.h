@@ -52,6 +52,9 @@ void add_export_command(CLI::App& app, Command& chosen);
 /// `glissade glove [--side left|right] [--device N] [--lcm URL] [--script FILE] [--frozen-ms T] [--record FILE]`
 void add_glove_command(CLI::App& app, Command& chosen);
 
+/// `glissade calibrate --out FILE [--user NAME] [--device N] [--pause-s T] [--hold-s T] [--flat-at-m X Y Z]`
+void add_calibrate_command(CLI::App& app, Command& chosen);
+
 /// `glissade bridge opengloves --port PORT [--check] [--list]`
 void add_bridge_command(CLI::App& app, Command& chosen);
 

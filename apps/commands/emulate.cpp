@@ -96,6 +96,7 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
   command->footer(kEmulateFooter);
   add_emulate_dynamixel(*command, chosen);
   add_emulate_opengloves(*command, chosen);
+  add_emulate_tracker(*command, chosen);
 }
 
 }  // namespace glissade::apps

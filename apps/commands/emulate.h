@@ -42,4 +42,7 @@ void add_emulate_dynamixel(CLI::App& emulate, Command& chosen);
 /// `glissade emulate opengloves [--link PATH|--tcp PORT] [--encoding alpha|legacy] [--fault ...]`
 void add_emulate_opengloves(CLI::App& emulate, Command& chosen);
 
+/// `glissade emulate tracker --script FILE [--device N] [--rate-hz R]`
+void add_emulate_tracker(CLI::App& emulate, Command& chosen);
+
 }  // namespace glissade::apps

@@ -12,6 +12,8 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/glove_link_options.h>
+#include <glissade/apps/commands/pose_script.h>
 #include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/run/glove_watch.h>
 #include <glissade/apps/run/lcm_option.h>
@@ -63,6 +65,8 @@ struct GloveOptions {
   std::string preset;
   bool lists_presets = false;
   bool fingers = false;
+  double seconds_per_pose = 0.0;  ///< 0: the wearer does not show poses
+  GloveLinkOptions link;
   std::int64_t device = devices::kDefaultDevice;
   std::string record;
   bool overwrites = false;
@@ -129,6 +133,7 @@ void list_presets() {
 
 HandScript script_of(const GloveOptions& options) {
   if (!options.script.empty()) return read_hand_script(options.script);
+  if (options.seconds_per_pose > 0.0) return pose_script(options.seconds_per_pose);
   const Demonstration demonstration = options.fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor;
   return parse_hand_script(embedded_scene_script(demonstration), embedded_script_name(demonstration));
 }
@@ -141,14 +146,21 @@ devices::SimulatedGlove simulated_glove(const GloveOptions& options, const HandS
   return devices::SimulatedGlove(script.X_WH, parameters, devices::read_glove_model(options.preset));
 }
 
+void check(const GloveOptions& options) {
+  if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
+    throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
+  }
+  if (options.seconds_per_pose != 0.0 && !(options.seconds_per_pose >= 0.5 && options.seconds_per_pose <= 120.0))
+    throw std::invalid_argument("--poses: must lie between 0.5 and 120 s");
+}
+
 int run(const GloveOptions& options) {
   if (options.lists_presets) {
     list_presets();
     return 0;
   }
-  if (!(options.frozen_ms >= 0.0 && options.frozen_ms <= 1e6)) {
-    throw std::invalid_argument("--frozen-ms: must lie between 0 and 1e6, not " + format_number(options.frozen_ms));
-  }
+  check(options);
+  const bool shows_poses = options.seconds_per_pose > 0.0;
   const bool has_locked_memory = realtime::lock_memory();
   const HandScript script = script_of(options);
   devices::SimulatedGlove simulated = simulated_glove(options, script);
@@ -163,21 +175,24 @@ int run(const GloveOptions& options) {
   }
   GloveWatch watch;
   const hands::HandSide side = options.side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
-  devices::SimulatedGloveService glove(bus, std::move(simulated), clock, {.device = options.device, .side = side},
-                                       [&](const devices::GloveState& state, const devices::SafeCommand& command) {
-                                         if (record) record->push(state, command);
-                                         // The main thread may be held up by a reader of the output.
-                                         const bool goes_on = !StopSignal::requested();
-                                         const bool has_server = command.values().sequence > 0;
-                                         if (has_server && goes_on) watch.note(state.time, command);
-                                         return goes_on;
-                                       });
+  const auto observe = [&](const devices::GloveState& state, const devices::SafeCommand& command) {
+    if (record) record->push(state, command);
+    // The main thread may be held up by a reader of the output.
+    const bool goes_on = !StopSignal::requested();
+    const bool has_server = command.values().sequence > 0;
+    if (has_server && goes_on) watch.note(state.time, command);
+    return goes_on;
+  };
+  devices::SimulatedGloveService glove(bus, std::move(simulated), clock,
+                                       link_options(options.link, options.device, side), observe, !shows_poses);
 
   StatusLine line;
   constexpr bool kNeedsFifo = false;  // a simulated hand may be late
   const std::string missing = missing_rights(!kNeedsFifo, has_locked_memory);
   if (!missing.empty()) line.say("glissade glove: " + missing);
-  line.say("glissade glove: the " + options.side + " hand waits for a server at " + options.lcm.url);
+  line.say("glissade glove: the " + options.side +
+           (shows_poses ? " hand shows the poses of 'glissade calibrate' at " : " hand waits for a server at ") +
+           options.lcm.url);
   bool has_told_of_another = false;
   for (int i = 0; glove.script_time() < duration && !StopSignal::requested(); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -214,6 +229,12 @@ void add_glove_command(CLI::App& app, Command& chosen) {
   command->add_option("--script", options->script, "Trajectory of the hand root (CSV), see below");
   command->add_flag("--fingers", options->fingers, "Without --script: the hand of 'glissade demo --fingers'")
       ->excludes("--script");
+  command
+      ->add_option("--poses", options->seconds_per_pose,
+                   "Show the poses of 'glissade calibrate', each for so many seconds, without a server")
+      ->excludes("--script")
+      ->excludes("--fingers");
+  add_calibration_option(*command, options->link);
   command
       ->add_option("--frozen-ms", options->frozen_ms,
                    "Time in milliseconds for which the tracker may repeat a pose bit by bit; then the force fades; "
