@@ -25,6 +25,7 @@ void add_bridge_command(CLI::App& app, Command& chosen) {
   command->footer(kBridgeFooter);
   add_bridge_dynamixel(*command, chosen);
   add_bridge_opengloves(*command, chosen);
+  add_bridge_haply(*command, chosen);
 }
 
 }  // namespace glissade::apps

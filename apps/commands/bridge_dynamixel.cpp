@@ -70,7 +70,7 @@ std::string status_of(const bridges::DynamixelHand& hand, const bridges::Dynamix
 int run(const DynamixelBridge& options) {
   if (options.bridge.lists) return list_serial_ports();
   const bridges::DynamixelHand hand = hand_of(options);
-  const std::string& port = options.bridge.port;
+  const std::string& port = options.bridge.address;
   if (options.bridge.checks)
     return run_check(
         [&](const auto& goes_on, const auto& say) { return bridges::check_dynamixel(hand, port, goes_on, say); });
@@ -91,7 +91,7 @@ void add_bridge_dynamixel(CLI::App& bridge, Command& chosen) {
   CLI::App* command = bridge.add_subcommand("dynamixel", kDynamixelBridge);
   command->footer(kDynamixelBridgeFooter);
   add_dynamixel_option(*command, options->hand);
-  add_bridge_options(*command, options->bridge);
+  add_port_options(*command, options->bridge);
   command->add_option("--board-port", options->board_port, "Serial port of the measuring board");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -42,7 +42,7 @@ struct OpenGlovesBridge {
 bridges::OpenGlovesOptions wire_options(const OpenGlovesBridge& options) {
   require_port(options.bridge);
   if (!(options.full_scale >= 1.0)) throw std::invalid_argument("--full-scale: must be 1 or more");
-  bridges::OpenGlovesOptions wire{.port = options.bridge.port};
+  bridges::OpenGlovesOptions wire{.port = options.bridge.address};
   for (bridges::SensorRange& sensor : wire.sensors)
     sensor.closed = options.full_scale;
   return wire;
@@ -78,7 +78,7 @@ void add_bridge_opengloves(CLI::App& bridge, Command& chosen) {
   const auto options = std::make_shared<OpenGlovesBridge>();
   CLI::App* command = bridge.add_subcommand("opengloves", kOpenGlovesBridge);
   command->footer(kOpenGlovesBridgeFooter);
-  add_bridge_options(*command, options->bridge);
+  add_port_options(*command, options->bridge);
   command
       ->add_option("--full-scale", options->full_scale,
                    "Number of a closed finger: 4095 of an ESP32, 1023 of an Arduino Nano")

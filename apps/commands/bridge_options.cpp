@@ -4,18 +4,49 @@
 #include <memory>
 #include <stdexcept>
 
-#include <Eigen/Geometry>
-
 #include <glissade/apps/commands/bridge_options.h>
+#include <glissade/apps/run/machine_check.h>
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/usage.h>
 #include <glissade/bridges/bridge.h>
 #include <glissade/bridges/serial_ports.h>
+#include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {
 
 namespace {
+
+bool goes_on() {
+  return !StopSignal::requested();
+}
+
+}  // namespace
+
+void add_bridge_options(CLI::App& command, BridgeOptions& options, const std::string& what) {
+  command.add_flag("--list", options.lists, "List the devices or ports that can be found, and end");
+  command.add_flag("--check", options.checks, "Say what arrives from the device or what is wrong, and end");
+  command.add_option("--side", options.side, "Hand that holds or wears the device")
+      ->check(one_of({"left", "right"}))
+      ->capture_default_str();
+  add_device_option(command, options.device);
+  add_lcm_options(command, options.lcm);
+  command.add_option("--position-m", options.position_m, "Position of " + what + " in the world, X Y Z")
+      ->expected(3)
+      ->capture_default_str();
+  command.add_option("--orientation-wxyz", options.orientation_wxyz, "Orientation of " + what + ", a unit quaternion")
+      ->expected(4)
+      ->capture_default_str();
+  command.add_option("--seconds", options.seconds, "Time after which the bridge ends; 0: with Ctrl-C")
+      ->capture_default_str();
+}
+
+void add_port_options(CLI::App& command, BridgeOptions& options) {
+  command.add_option("--port", options.address, "Serial port, or tcp:HOST:PORT");
+  add_calibration_option(command, options.link);
+  add_pose_options(command, options.link);
+  add_bridge_options(command, options, "the hand root");
+}
 
 Eigen::Isometry3d pose_of(const BridgeOptions& options) {
   const std::vector<double>& q = options.orientation_wxyz;
@@ -28,35 +59,8 @@ Eigen::Isometry3d pose_of(const BridgeOptions& options) {
   return pose;
 }
 
-bool goes_on() {
-  return !StopSignal::requested();
-}
-
-}  // namespace
-
-void add_bridge_options(CLI::App& command, BridgeOptions& options) {
-  command.add_option("--port", options.port, "Serial port, or tcp:HOST:PORT");
-  command.add_flag("--list", options.lists, "List the serial ports of this machine, and end");
-  command.add_flag("--check", options.checks, "Say what arrives at the port or what is wrong, and end");
-  command.add_option("--side", options.side, "Hand that wears the glove")
-      ->check(one_of({"left", "right"}))
-      ->capture_default_str();
-  add_device_option(command, options.device);
-  add_lcm_options(command, options.lcm);
-  add_calibration_option(command, options.link);
-  add_pose_options(command, options.link);
-  command.add_option("--position-m", options.position_m, "Position of the hand root in the world, X Y Z")
-      ->expected(3)
-      ->capture_default_str();
-  command.add_option("--orientation-wxyz", options.orientation_wxyz, "Orientation of the hand root, a unit quaternion")
-      ->expected(4)
-      ->capture_default_str();
-  command.add_option("--seconds", options.seconds, "Time after which the bridge ends; 0: with Ctrl-C")
-      ->capture_default_str();
-}
-
 void require_port(const BridgeOptions& options) {
-  if (options.port.empty()) throw std::invalid_argument("--port is missing: --list shows the ports of this machine");
+  if (options.address.empty()) throw std::invalid_argument("--port is missing: --list shows the ports of this machine");
 }
 
 int list_serial_ports() {
@@ -87,6 +91,10 @@ int run_bridge(const BridgeOptions& options, const BridgedDevice& device) {
   const hands::HandSide side = options.side == "left" ? hands::HandSide::kLeft : hands::HandSide::kRight;
   bridges::BridgeOptions bridge{.link = link_options(options.link, options.device, side), .X_WH = pose_of(options)};
   bridge.link.patience_periods = device.patience_periods;
+  const bool has_locked_memory = realtime::lock_memory();
+  const bool has_fifo = realtime::schedule_this_thread(realtime::kLinkPriority).is_fifo;
+  const std::string missing = missing_rights(has_fifo, has_locked_memory);
+  if (!missing.empty()) say(missing);
   const std::shared_ptr<devices::LcmBus> bus = open_bus(options.lcm);
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
@@ -101,14 +109,13 @@ int run_bridge(const BridgeOptions& options, const BridgedDevice& device) {
     const bool is_over = options.seconds > 0.0 && now - start > std::chrono::duration<double>(options.seconds);
     return goes_on() && !is_over;
   };
-  say("glove " + std::to_string(options.device) + ", the " + options.side + " hand, at " + options.port +
+  say("glove " + std::to_string(options.device) + ", the " + options.side + " hand, at " + options.address +
       ", for servers at " + options.lcm.url);
   const bridges::BridgeStatistics statistics = bridges::run_bridge(device.wire, bus, bridge, goes_on_and_shows, say);
   line.show({});
   const bool is_free = device.is_free();
   std::cout << "glissade bridge: " << statistics.states << " states, the wire failed " << statistics.errors
-            << " times; "
-            << (is_free ? "the fingers are free\n" : "the glove was not reached at the end: switch it off\n");
+            << " times; " << (is_free ? device.let_go : "the device was not reached at the end: switch it off") << '\n';
   return is_free ? 0 : 1;
 }
 

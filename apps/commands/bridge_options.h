@@ -1,6 +1,6 @@
 #pragma once
 
-/// What the bridges to devices with a port have in common: their options, and a run.
+/// What the bridges have in common: options, and a run.
 
 #include <cstdint>
 #include <functional>
@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 
 #include <glissade/apps/commands/glove_link_options.h>
 #include <glissade/apps/run/lcm_option.h>
@@ -17,7 +18,7 @@
 namespace glissade::apps {
 
 struct BridgeOptions {
-  std::string port;
+  std::string address;  ///< where the device is: a port or a service
   bool lists = false;
   bool checks = false;
   std::string side = "right";
@@ -29,9 +30,14 @@ struct BridgeOptions {
   double seconds = 0.0;
 };
 
-/// --port, --list, --check, --side, --device, --lcm, --calibration, --pose-from, --pose-rate-hz, --position-m,
-/// --orientation-wxyz, --seconds.
-void add_bridge_options(CLI::App& command, BridgeOptions& options);
+/// --list, --check, --side, --device, --lcm, --position-m, --orientation-wxyz, --seconds. `what` has the pose, such as
+/// "the hand root".
+void add_bridge_options(CLI::App& command, BridgeOptions& options, const std::string& what);
+/// The same for a glove at a port, with --port, --calibration, --pose-from and --pose-rate-hz.
+void add_port_options(CLI::App& command, BridgeOptions& options);
+
+/// The pose of the two options. Throws std::invalid_argument, naming the option, if it is none.
+Eigen::Isometry3d pose_of(const BridgeOptions& options);
 
 /// Throws std::invalid_argument without --port.
 void require_port(const BridgeOptions& options);
@@ -48,12 +54,13 @@ int run_check(const Check& check);
 struct BridgedDevice {
   bridges::Wire& wire;
   double patience_periods = devices::LcmGloveHostOptions{}.patience_periods;
-  std::function<std::string()> status;  ///< the text of the status line
-  std::function<bool()> is_free;        ///< the device has been told to let go of the hand
+  std::function<std::string()> status;          ///< the text of the status line
+  std::function<bool()> is_free;                ///< the device has been told to let go of the hand
+  const char* let_go = "the fingers are free";  ///< what is said if it has
 };
 
-/// Runs the bridge until Ctrl-C or --seconds, and returns the exit code: 1 if the hand may not be free at the end.
-/// Throws std::invalid_argument for a pose that is none.
+/// Runs the bridge until Ctrl-C or --seconds, in real time where the rights permit it. Returns the exit code: 1 if the
+/// hand may not be free at the end. Throws std::invalid_argument for a pose that is none.
 int run_bridge(const BridgeOptions& options, const BridgedDevice& device);
 
 }  // namespace glissade::apps

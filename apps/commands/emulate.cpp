@@ -95,6 +95,7 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
   command->require_subcommand(1);
   command->footer(kEmulateFooter);
   add_emulate_dynamixel(*command, chosen);
+  add_emulate_haply(*command, chosen);
   add_emulate_opengloves(*command, chosen);
   add_emulate_tracker(*command, chosen);
 }

@@ -39,6 +39,9 @@ void run_emulator(const EmulateOptions& options, const RunningEmulator& emulator
 /// `glissade emulate dynamixel --config FILE|--preset NAME [--link PATH] [--board-link PATH] [--fault ...]`
 void add_emulate_dynamixel(CLI::App& emulate, Command& chosen);
 
+/// `glissade emulate haply [--port N] [--script FILE] [--fault NAME...]`
+void add_emulate_haply(CLI::App& emulate, Command& chosen);
+
 /// `glissade emulate opengloves [--link PATH|--tcp PORT] [--encoding alpha|legacy] [--fault ...]`
 void add_emulate_opengloves(CLI::App& emulate, Command& chosen);
 

@@ -16,6 +16,7 @@ namespace glissade::test_support {
 /// Every command of the program.
 inline const std::vector<std::string> kCommands{"bridge",
                                                 "bridge dynamixel",
+                                                "bridge haply",
                                                 "bridge opengloves",
                                                 "calibrate",
                                                 "collide",
@@ -23,6 +24,7 @@ inline const std::vector<std::string> kCommands{"bridge",
                                                 "doctor",
                                                 "emulate",
                                                 "emulate dynamixel",
+                                                "emulate haply",
                                                 "emulate opengloves",
                                                 "emulate tracker",
                                                 "example",
@@ -58,7 +60,7 @@ inline std::vector<std::string> examples_of(const std::string& command) {
 
 /// Whether an example talks to another process.
 inline bool needs_network(const std::string& example) {
-  for (const char* word : {"glove", "run ", "record ", "latency", "udpm"}) {
+  for (const char* word : {"bridge", "glove", "run ", "record ", "latency", "udpm"}) {
     if (example.find(word) != std::string::npos) return true;
   }
   return false;

@@ -1,4 +1,4 @@
-/// `glissade bridge` and `glissade emulate`: bad usage, and ports that are none.
+/// `glissade bridge` and `glissade emulate`: bad usage, and devices that are none.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,6 +33,23 @@ TEST(BridgeCommand, RefusesBadConfigurationsOfServos) {
   expect_refused({"bridge", "dynamixel", "--preset", "dogglove", "--port", "a"}, {"--preset", "doglove"});
   expect_refused({"bridge", "dynamixel", "--preset", "doglove", "--port", "a", "--baud", "100"}, {"baud_rate"});
   expect_refused({"emulate", "dynamixel"}, {"--config is missing"});
+}
+
+TEST(BridgeCommand, RefusesBadUsageOfHaply) {
+  expect_refused({"bridge", "haply", "--service", "haply.example"}, {"haply.example", "address"});
+  expect_refused({"bridge", "haply", "--service", "localhost:0"}, {"localhost:0", "from 1 to 65535"});
+  expect_refused({"bridge", "haply", "--orientation-wxyz", "1", "1", "0", "0"}, {"--orientation-wxyz", "norm"});
+  expect_refused({"emulate", "haply", "--fault", "fire"}, {"--fault", "unplug"});
+  expect_refused({"emulate", "haply", "--script", "no_such_file.csv"}, {"no_such_file.csv"});
+}
+
+TEST(BridgeCommand, SaysThatThereIsNoHaplyService) {
+  // Nothing listens at port 1 of a machine.
+  const test_support::ProgramResult result =
+      test_support::glissade({"bridge", "haply", "--service", "localhost:1", "--check"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, testing::HasSubstr("127.0.0.1:1: nothing listens there"));
+  test_support::expect_fails(1, {"bridge", "haply", "--service", "localhost:1", "--list"}, {"nothing listens there"});
 }
 
 TEST(BridgeCommand, ChecksAPortThatIsNone) {

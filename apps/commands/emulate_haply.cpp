@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <chrono>
+#include <functional>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/files/hand_script.h>
+#include <glissade/apps/run/status_line.h>
+#include <glissade/apps/run/stop_signal.h>
+#include <glissade/apps/text.h>
+#include <glissade/apps/usage.h>
+#include <glissade/bridges/haply.h>
+#include <glissade/bridges/haply_emulator.h>
+#include <glissade/devices/glove_model.h>
+
+namespace glissade::apps {
+
+namespace {
+
+constexpr const char* kHaplyEmulatorFooter =
+    "Prints the address of the service on standard output. The service has an Inverse3 with a VerseGrip. The hand\n"
+    "begins with the script two seconds after the first message of a bridge. The script is that of 'glissade glove':\n"
+    "poses in the frame of the device, and whether the hand is closed, i.e. presses a button. Without --script, the\n"
+    "hand rests.\n"
+    "Faults: 'garbage' in place of one answer in ten, 'half-messages' in one answer in ten, 'slow' answers (50 ms\n"
+    "late), 'unplug' of the device and 'restart' of the service, each for a second out of five.\n"
+    "\n"
+    "Examples:\n"
+    "  glissade emulate haply --port 0 --seconds 2\n"
+    "  glissade emulate haply --port 10103 --fault garbage unplug --seconds 4 & glissade bridge haply --service "
+    "localhost:10103 --seconds 4";
+
+struct EmulateHaplyOptions {
+  int port = bridges::kHaplyPort;
+  std::string script;
+  bool is_before_3_5 = false;
+  bool has_no_handle = false;
+  bridges::HaplyFilters filters;
+  std::vector<std::string> faults;
+  double seconds = 0.0;
+
+  bool has_fault(const std::string& name) const {
+    return std::find(faults.begin(), faults.end(), name) != faults.end();
+  }
+};
+
+bridges::HaplyEmulatorOptions emulator_options(const EmulateHaplyOptions& options) {
+  bridges::HaplyEmulatorOptions emulator;
+  emulator.port = static_cast<unsigned short>(options.port);
+  emulator.is_before_3_5 = options.is_before_3_5;
+  emulator.has_handle = !options.has_no_handle;
+  emulator.filters = options.filters;
+  constexpr double kShare = 0.1;
+  if (options.has_fault("garbage")) emulator.faults.garbage = kShare;
+  if (options.has_fault("half-messages")) emulator.faults.half_messages = kShare;
+  if (options.has_fault("slow")) emulator.faults.delay = std::chrono::milliseconds(50);
+  if (options.script.empty()) return emulator;
+  emulator.wait = std::chrono::seconds(2);
+  const HandScript script = read_hand_script(options.script);
+  emulator.hand =
+      devices::SimulatedGlove(script.X_WH, script.with_grip({}), devices::read_glove_model(bridges::kInverse3Preset));
+  return emulator;
+}
+
+std::string status_of(const bridges::EmulatedHaply& device) {
+  const Eigen::Vector3d& p = device.p_DC;
+  return "tip at " + fixed_text(p.x(), 3) + " " + fixed_text(p.y(), 3) + " " + fixed_text(p.z(), 3) + " m, force " +
+         fixed_text(device.f_C_D.norm(), 2) + " N" + (device.is_pressed ? ", button pressed" : "");
+}
+
+/// Something that fails for a second out of five.
+class Failing {
+ public:
+  Failing(std::string name, std::function<void()> fail, std::function<void()> mend)
+      : name_(std::move(name)), fail_(std::move(fail)), mend_(std::move(mend)) {}
+
+  void turn(int second, StatusLine& line) {
+    const bool is_to_fail = second % 5 == 4;
+    if (is_to_fail == is_failing_) return;
+    is_failing_ = is_to_fail;
+    is_failing_ ? fail_() : mend_();
+    line.say("glissade emulate: the " + name_ + (is_failing_ ? " is gone" : " is back"));
+  }
+
+ private:
+  std::string name_;
+  std::function<void()> fail_;
+  std::function<void()> mend_;
+  bool is_failing_ = false;
+};
+
+int run(const EmulateHaplyOptions& options) {
+  const StopSignal stop_signal;
+  bridges::HaplyEmulator emulator(emulator_options(options));
+  std::cout << emulator.service() << std::endl;  // for a program that waits for it
+  std::vector<Failing> failing;
+  if (options.has_fault("unplug"))
+    failing.emplace_back(
+        "device", [&] { emulator.unplug(); }, [&] { emulator.plug(); });
+  if (options.has_fault("restart"))
+    failing.emplace_back(
+        "service", [&] { emulator.stop_service(); }, [&] { emulator.start_service(); });
+  StatusLine line;
+  constexpr int kTicks_per_s = 10;
+  for (int tick = 0; !StopSignal::requested(); ++tick) {
+    if (options.seconds > 0.0 && tick >= kTicks_per_s * options.seconds) break;
+    for (Failing& fault : failing)
+      fault.turn(tick / kTicks_per_s, line);
+    line.show(status_of(emulator.state()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000 / kTicks_per_s));
+  }
+  line.show({});
+  const bridges::EmulatedHaply device = emulator.state();
+  std::cout << "glissade emulate: " << device.messages << " messages, " << device.other_messages
+            << " that the service does not understand\n";
+  return 0;
+}
+
+}  // namespace
+
+void add_emulate_haply(CLI::App& emulate, Command& chosen) {
+  const auto options = std::make_shared<EmulateHaplyOptions>();
+  CLI::App* command = emulate.add_subcommand("haply", "Haply's Inverse Service with an Inverse3 and a VerseGrip");
+  command->footer(kHaplyEmulatorFooter);
+  command->add_option("--port", options->port, "TCP port of this machine; 0: any that is free")
+      ->check(CLI::Range(0, 65535))
+      ->capture_default_str();
+  command->add_option("--script", options->script, "Trajectory of the tip (CSV)");
+  command->add_flag("--before-3-5", options->is_before_3_5, "A service before version 3.5");
+  command->add_flag("--no-handle", options->has_no_handle, "A device without a VerseGrip");
+  command
+      ->add_option("--force-gate", options->filters.force_gate,
+                   "Share of an oscillating force that the service takes away")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--damping", options->filters.damping_N_s_per_m, "Damping that the service adds, in N s/m")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+  command->add_option("--force-scale", options->filters.force_scale, "Factor of the service on all forces")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  command->add_option("--fault", options->faults, "What is wrong with the service, see above")
+      ->check(one_of({"garbage", "half-messages", "slow", "unplug", "restart"}));
+  command->add_option("--seconds", options->seconds, "Time after which the service ends; 0: with Ctrl-C")
+      ->capture_default_str();
+  command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
+}
+
+}  // namespace glissade::apps
