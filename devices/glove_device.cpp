@@ -11,6 +11,14 @@
 #include "descriptor/bad_field.h"
 
 namespace glissade::devices {
+namespace {
+
+/// The lag (seconds) of a loop in the device: half a period and its delay.
+double lag_of_own_loop(const DeviceDescriptor& descriptor, double rate, std::chrono::nanoseconds delay) noexcept {
+  return 0.5 / (rate > 0.0 ? rate : descriptor.update_rate) + std::chrono::duration<double>(delay).count();
+}
+
+}  // namespace
 
 std::int32_t to_bits(const LimitReasons& reasons) noexcept {
   std::int32_t bits = 0;
@@ -58,7 +66,8 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
       {"max_turn_rate", descriptor.max_turn_rate},
       {"workspace_radius", descriptor.workspace_radius},
       {"limit_rate", descriptor.limit_rate},
-      {"max_limit_stiffness", descriptor.max_limit_stiffness}};
+      {"max_limit_stiffness", descriptor.max_limit_stiffness},
+      {"tool_rate", descriptor.tool_rate}};
   for (const auto& [field, value] : limits) {
     if (!std::isfinite(value) || value < 0.0) return BadField{field, "must be finite and not negative", value};
   }
@@ -77,6 +86,8 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
     return BadField{"delay", "must not be longer than a second", seconds(descriptor.delay)};
   if (descriptor.limit_delay < std::chrono::nanoseconds(0) || descriptor.limit_delay > std::chrono::seconds(1))
     return BadField{"limit_delay", "must lie between 0 and 1 s", seconds(descriptor.limit_delay)};
+  if (descriptor.tool_delay < std::chrono::nanoseconds(0) || descriptor.tool_delay > std::chrono::seconds(1))
+    return BadField{"tool_delay", "must lie between 0 and 1 s", seconds(descriptor.tool_delay)};
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];
@@ -94,20 +105,29 @@ double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds perio
   return 0.5 * period_s + std::chrono::duration<double>(descriptor.delay + link_delay).count();
 }
 
-double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept {
-  if (told > 0.0) return told / lag;
-  return greatest * (lag_of(descriptor, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0)) / lag);
+double tool_lag(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
+                std::chrono::nanoseconds link_delay) noexcept {
+  if (descriptor.tool_command == ToolCommand::kWrench) return lag_of(descriptor, period, link_delay);
+  return lag_of_own_loop(descriptor, descriptor.tool_rate, descriptor.tool_delay);
+}
+
+double passive_limit(double told, double greatest, double own_lag, double lag) noexcept {
+  return told > 0.0 ? told / lag : greatest * (own_lag / lag);
 }
 
 double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept {
   if (descriptor.finger_command == FingerCommand::kTorque) return 0.0;
-  const double rate = descriptor.limit_rate > 0.0 ? descriptor.limit_rate : descriptor.update_rate;
-  const double lag = 0.5 / rate + std::chrono::duration<double>(descriptor.limit_delay).count();
+  const double lag = lag_of_own_loop(descriptor, descriptor.limit_rate, descriptor.limit_delay);
   double stiffness = descriptor.max_limit_stiffness;
   if (descriptor.joint_damping > 0.0) stiffness = std::min(stiffness, descriptor.joint_damping / lag);
   const bool has_steps = descriptor.joint_friction > 0.0 && descriptor.joint_resolution > 0.0;
   if (has_steps) stiffness = std::min(stiffness, 2.0 * descriptor.joint_friction / descriptor.joint_resolution);
   return stiffness;
+}
+
+double passive_limit_damping(const DeviceDescriptor& descriptor, double stiffness) noexcept {
+  const double lag = lag_of_own_loop(descriptor, descriptor.limit_rate, descriptor.limit_delay);
+  return std::max(0.0, descriptor.joint_damping - stiffness * lag);
 }
 
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept {

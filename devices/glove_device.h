@@ -4,6 +4,7 @@
 /// Frames: W world; H hand root, i.e. the frame whose pose the glove reports.
 
 #include <array>
+#include <bitset>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -123,6 +124,54 @@ struct JointWay {
 /// beyond; infinite without limits.
 double way_left(std::span<const JointWay> joints, const JointLimits& limits, const hands::JointValues& angles) noexcept;
 
+/// Largest number of half-spaces in a command: at most six push at once, and two more may be next.
+inline constexpr std::size_t kMaxHalfSpaces = 8;
+
+/// The constraint n·(v + w × r) ≥ bound on a displacement of the hand: v (metres) of its reference point R, w (rad)
+/// about R. It stands for one contact of the part in the hand.
+struct HalfSpace {
+  Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit normal, from the obstacle to the part
+  Eigen::Vector3d r_W = Eigen::Vector3d::Zero();  ///< from R to the contact point, metres
+  double bound = 0.0;                             ///< metres; negative: the contact is still open
+};
+
+/// Half-spaces to which the device keeps the hand in its own loop, at its own rate. The displacement counts from the
+/// pose B of the hand. If it leaves a half-space, a spring and damper push the hand toward the nearest displacement
+/// that satisfies all half-spaces, nearest in the metric of the spring. They never pull, and are never stiffer than the
+/// spring, however many contacts push. The contacts are linear at B: exact for translations; a rotation by an angle a
+/// (rad) from B puts a contact at the distance r off by up to r a² / 2.
+struct HalfSpaces {
+  Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
+  Eigen::Vector3d p_HR = Eigen::Vector3d::Zero();  ///< R in the frame of the hand, metres
+  std::array<HalfSpace, kMaxHalfSpaces> rows{};
+  std::size_t count = 0;              ///< rows in use
+  double stiffness = 0.0;             ///< against translation of R, N/m
+  double rotational_stiffness = 0.0;  ///< against rotation about R, Nm/rad
+  double damping = 0.0;               ///< N s/m; against rotation in the proportion of the two stiffnesses
+  /// Largest size of the wrench about R, N. The size is √(f² + t² K / K_r), with the stiffnesses K and K_r.
+  double max_force = 0.0;
+  double max_torque = 0.0;  ///< largest torque about the hand root, Nm; 0 for a device without torque
+  /// A device that has heard nothing for so long drops all half-spaces. The envelope sets it by the rate of the device.
+  std::chrono::nanoseconds expiry{std::chrono::milliseconds(10)};
+
+  bool any() const noexcept { return count > 0 && stiffness > 0.0 && rotational_stiffness > 0.0 && max_force > 0.0; }
+};
+
+/// Force (N) and torque (Nm, about the origin of H) on the hand, in world axes.
+struct HandWrench {
+  Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();
+  Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();
+};
+
+/// The wrench of half-spaces on a hand with this pose, velocity of the origin of H (m/s) and angular velocity (rad/s).
+/// Zero for half-spaces that contradict each other. Cost: about ten microseconds for eight rows. Real-time safe.
+HandWrench half_space_wrench(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH,
+                             const Eigen::Vector3d& v_WH = Eigen::Vector3d::Zero(),
+                             const Eigen::Vector3d& w_WH = Eigen::Vector3d::Zero()) noexcept;
+
+/// The energy (J) that the spring of the half-spaces stores with the hand at this pose.
+double stored_energy(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH) noexcept;
+
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
   std::int64_t sequence = 0;         ///< ≥ 0, increases with every state
@@ -159,15 +208,17 @@ struct GloveCommand {
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();  ///< torque on the hand about the origin of H, in world axes
   hands::JointValues joint_torques{};               ///< positive toward larger joint angles
   JointLimits joint_limits{};                       ///< only for devices that take limits, see `FingerCommand`
+  HalfSpaces half_spaces{};                         ///< only for devices that take half-spaces, see `ToolCommand`
   /// Total energy (J) that independently moving bodies, such as a part in another hand, have given to this hand so far,
   /// minus the energy that they have requested back, plus the hand's work against withheld force. When `supply` rises,
   /// force and torque are allowed to give the hand the same amount of energy. When `supply` falls, the hand gives up as
   /// much of this amount as it can spare (`GloveState::taken`).
   double supply = 0.0;
 
-  /// Whether neither forces nor limits act.
+  /// Whether neither forces nor limits nor half-spaces act.
   bool is_at_rest() const noexcept {
-    return f_H_W.isZero(0.0) && t_H_W.isZero(0.0) && joint_torques == hands::JointValues{} && !joint_limits.any();
+    return f_H_W.isZero(0.0) && t_H_W.isZero(0.0) && joint_torques == hands::JointValues{} && !joint_limits.any() &&
+           !half_spaces.any();
   }
 };
 
@@ -181,6 +232,15 @@ enum class FingerCommand : std::int32_t {
 
 /// Number of kinds; their values run from 0 to kFingerCommands − 1.
 inline constexpr std::int32_t kFingerCommands = 4;
+
+/// What the hand root of a device takes. Messages carry the number.
+enum class ToolCommand : std::int32_t {
+  kWrench = 0,      ///< a force and a torque
+  kHalfSpaces = 1,  ///< half-spaces, which the device holds in its own loop, and no wrench
+};
+
+/// Number of kinds; their values run from 0 to kToolCommands − 1.
+inline constexpr std::int32_t kToolCommands = 2;
 
 /// Capabilities and limits of a device, in SI units: N, Nm, W, N/m, Nm/rad, N s/m, Nm s/rad, rad, m, s, Hz. Required:
 /// `max_force`, `max_torque`, `max_stiffness` and `max_rotational_stiffness`. By default, the hand feels nothing.
@@ -225,28 +285,47 @@ struct DeviceDescriptor {
   double limit_rate = 0.0;                  ///< updates per second of the device's own loop; 0: `update_rate`
   std::chrono::nanoseconds limit_delay{0};  ///< from measurement to torque in this loop, in addition to its period
   double max_limit_stiffness = 0.0;         ///< largest stiffness of a limit rendered without shaking, Nm/rad
+  /// Joints without an actuator: they are measured, but no torque and no limit is for them.
+  std::bitset<hands::kJoints> undriven_joints{};
+  ToolCommand tool_command = ToolCommand::kWrench;
+  // Of a device that takes half-spaces:
+  double tool_rate = 0.0;                  ///< updates per second of the device's own loop; 0: `update_rate`
+  std::chrono::nanoseconds tool_delay{0};  ///< from measurement to force in this loop, in addition to its period
+
+  /// Whether the device acts on a joint: the joint is there, and has an actuator.
+  bool drives(std::size_t joint) const noexcept {
+    return (joint_lower[joint] != 0.0 || joint_upper[joint] != 0.0) && !undriven_joints[joint];
+  }
 };
 
 /// Throws std::invalid_argument, naming the device and the field, if a number is not finite; a `max_` limit,
 /// `workspace_radius` or a property of the bare device or of its limits is negative; a joint's lower limit is not below
-/// its upper limit, unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is negative; or `delay` or
-/// `limit_delay` is outside 0 to 1 s.
+/// its upper limit, unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is negative; or `delay`,
+/// `limit_delay` or `tool_delay` is outside 0 to 1 s.
 void validate(const DeviceDescriptor& descriptor);
 
-/// The lag (seconds) of the device's force behind the motion, for a loop with `period` and a link with `link_delay`.
-/// The lag is half a period, because the force is held for a period, plus the delays of device and link. Of the periods
-/// of loop and device, the longer one counts.
+/// The lag (seconds) of a torque or force over the link behind the motion, for a loop with `period` and a link with
+/// `link_delay`. The lag is half a period, because the force is held for a period, plus the delays of device and link.
+/// Of the periods of loop and device, the longer one counts.
 double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
               std::chrono::nanoseconds link_delay) noexcept;
 
+/// The same for what the hand root takes: for half-spaces, it is the lag of the device's own loop, whatever the link.
+double tool_lag(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
+                std::chrono::nanoseconds link_delay) noexcept;
+
 /// The largest stiffness that is passive with the reported damping `told` at this lag (seconds), i.e. damping divided
-/// by lag. If `told` is 0, assumes the damping that just makes the device's largest stiffness, `greatest`, passive
-/// without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
-double passive_limit(const DeviceDescriptor& descriptor, double told, double greatest, double lag) noexcept;
+/// by lag. If `told` is 0, assumes the damping that just makes the device's largest stiffness, `greatest`, passive at
+/// `own_lag`, the lag without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
+double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
 
 /// The stiffness (Nm/rad) of the limits that the device holds passively in its own loop, with its joint damping and
 /// friction. 0 for a device that takes torques.
 double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
+
+/// The damping (Nm s/rad) of the limits of this stiffness that the device holds passively: what the stiffness leaves of
+/// the joint damping. 0 if the joint damping is not known.
+double passive_limit_damping(const DeviceDescriptor& descriptor, double stiffness) noexcept;
 
 /// The largest rate (Nm/s) of change of a joint torque.
 double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;

@@ -20,6 +20,7 @@ namespace glissade::devices {
 /// The mechanics of the wrist. A grounded arm exerts force on the hand. A tracker only measures the hand's pose.
 struct WristModel {
   bool is_grounded = false;
+  bool holds_half_spaces = false;         ///< the arm takes half-spaces instead of a wrench
   double max_force = 0.0;                 ///< N
   double max_torque = 0.0;                ///< Nm
   double max_stiffness = 0.0;             ///< N/m
@@ -27,6 +28,8 @@ struct WristModel {
   double max_damping = 0.0;               ///< N s/m
   double damping = 0.0;                   ///< viscous friction of the arm, N s/m
   double rotational_damping = 0.0;        ///< Nm s/rad
+  double loop_rate = 1000.0;              ///< of the loop that holds half-spaces, Hz
+  double loop_delay = 0.0;                ///< from measurement to force in this loop, in addition to the period, s
   double position_noise = 0.0;            ///< standard deviation along each axis of a measured position, m
   double rotation_noise = 0.0;            ///< standard deviation about each axis of a measured rotation, rad
 };

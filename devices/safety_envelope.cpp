@@ -6,6 +6,7 @@
 #include "envelope/envelope_numbers.h"
 #include "envelope/fade.h"
 #include "envelope/finger_limits.h"
+#include "envelope/half_space_limits.h"
 #include "envelope/link_delay.h"
 #include "envelope/simple_limits.h"
 #include "envelope/state_check.h"
@@ -39,13 +40,26 @@ struct SafetyEnvelope::Stages {
         fade(descriptor, in_seconds(period)),
         norms(descriptor),
         energy(descriptor, rates, period, rounded(patience_periods * std::chrono::duration<double>(period))),
-        finger_limits(descriptor, in_seconds(period)) {
+        finger_limits(descriptor, in_seconds(period)),
+        half_spaces(descriptor, rates, in_seconds(period)) {
     descriptor.max_force = rates.max_force();
     descriptor.max_torque = rates.max_torque();
   }
 
   void observe(const GloveState& state, nanoseconds now) noexcept {
     if (const std::optional<BookedMotion> motion = check.observe(state, now)) energy.observe(*motion);
+  }
+
+  /// What the hand feels of the commanded and the wanted wrench, and of half-spaces.
+  void observe_felt(const Forces& given, double dt) noexcept {
+    const auto with = [](Forces forces, const HandWrench& held) {
+      forces.f += held.f_H_W;
+      forces.t += held.t_H_W;
+      return forces;
+    };
+    const Forces felt = with(given, half_spaces.given_wrench());
+    norms.observe_given(felt.f, dt);
+    energy.observe_felt(with(wanted, half_spaces.wanted_wrench()), felt);
   }
 
   double seconds_since_last_call(nanoseconds now) noexcept {
@@ -64,6 +78,7 @@ struct SafetyEnvelope::Stages {
   NormLimit norms;
   EnergyLimit energy;
   FingerLimits finger_limits;
+  HalfSpaceLimits half_spaces;
   Forces wanted;  // newest finite one
   Forces last;    // always finite
   bool is_stopped = false;
@@ -114,6 +129,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   const bool is_fading = reasons.is_fading();
   if (is_finite(wanted)) {
     stages.wanted = {wanted.f_H_W, wanted.t_H_W, wanted.joint_torques};
+    if (stages.half_spaces.are_taken()) stages.wanted.scale_wrench(0.0);
     stages.energy.take_supply(wanted, is_fading, dt);
   }
   stages.fade.advance(is_fading, dt);
@@ -123,15 +139,19 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   stages.norms.limit(forces, reasons);
   if (!is_fading) forces = stages.fade.returning(forces);
   limit_power(forces, state, stages.descriptor.max_power, reasons);
-  stages.energy.settle(forces, !stages.fade.is_whole(), now, dt);
+  const HeldEnergy held = stages.half_spaces.want(wanted.half_spaces, state, is_fading, stages.fade,
+                                                  stages.norms.largest_force(), dt, reasons);
+  stages.energy.settle(forces, held, !stages.fade.is_whole(), now, dt);
   stages.energy.limit(forces, state, stages.last, now, dt, reasons);
   stages.rates.limit(forces, stages.last, dt, reasons);
   const JointLimits& limits =
       stages.finger_limits.limit(wanted.joint_limits, state.joint_angles, is_fading, stages.fade, dt, reasons);
   // Cannot happen; but NaN would pass all limits above, and stay.
   if (!forces.f.allFinite() || !forces.t.allFinite() || !all_finite(forces.joints)) forces = {};
-  stages.norms.observe_given(forces, dt);
-  stages.energy.observe_given(stages.wanted, forces, now);
+  const double gain = stages.half_spaces.give(is_fading ? 0.0 : stages.energy.available(state), dt, reasons);
+  if (!is_fading) stages.energy.pay(gain, state);
+  stages.energy.observe_given(forces, now);
+  stages.observe_felt(forces, dt);
   stages.last = forces;
 
   safe.energy_ = stages.energy.energy();
@@ -142,6 +162,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   safe.values_.t_H_W = forces.t;
   safe.values_.joint_torques = forces.joints;
   safe.values_.joint_limits = limits;
+  safe.values_.half_spaces = stages.half_spaces.given();
   if (is_fading && safe.values_.is_at_rest()) stages.fade.begin_at_zero();
   return safe;
 }

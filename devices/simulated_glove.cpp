@@ -184,13 +184,16 @@ GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& 
   const GloveCommand& command = modelled_ ? modelled_->command().values() : newest.values();
   const std::chrono::nanoseconds heard_at = modelled_ ? modelled_->heard_at() : truth_.time;
   const double arm = !modelled_ || modelled_->model().wrist.is_grounded ? 1.0 : 0.0;
+  ToolLoop* const tool = modelled_ ? modelled_->tool() : nullptr;
+  const std::chrono::nanoseconds step = tool != nullptr ? kFingerStep : kLargestStep;
   for (std::chrono::nanoseconds passed{0}; passed < dt;) {
-    const std::chrono::nanoseconds now = std::min(dt - passed, kLargestStep);
+    const std::chrono::nanoseconds now = std::min(dt - passed, step);
     const std::chrono::nanoseconds age = truth_.time - heard_at;
     const double h = std::chrono::duration<double>(now).count();
     const double share = share_of_command(age + now / 2);
-    move_hand(h, pace, arm * share * command.f_H_W);
-    turn_hand(h, pace, arm * share * command.t_H_W);
+    const HandWrench held = tool != nullptr ? tool->advance(truth_, command.half_spaces, age) : HandWrench{};
+    move_hand(h, pace, arm * share * command.f_H_W + held.f_H_W);
+    turn_hand(h, pace, arm * share * command.t_H_W + held.t_H_W);
     if (modelled_ && modelled_->fingers() != nullptr) {
       move_modelled_fingers(now, age, share, command);
     } else {

@@ -72,8 +72,8 @@ DeviceDescriptor simulated_glove_descriptor();
 struct GloveModel;
 class ModelledGlove;
 
-/// Integrates by semi-implicit Euler in steps of at most 1 ms. Fingers of a model are integrated at 8 kHz. Allocates
-/// only at construction. Not thread-safe.
+/// Integrates by semi-implicit Euler in steps of at most 1 ms. Fingers of a model, and arms that hold half-spaces, are
+/// integrated at 8 kHz. Allocates only at construction. Not thread-safe.
 class SimulatedGlove {
  public:
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
@@ -112,8 +112,8 @@ class SimulatedGlove {
   ///
   /// With a model, the device measures at its own rate, at the ends of steps, and takes a command after each
   /// measurement. The result is the newest state that has arrived, so sequence and time may stay the same. The time of
-  /// a state is that of its measurement. A command acts from its arrival at the device, and limits of finger joints act
-  /// until `JointLimits::expiry`.
+  /// a state is that of its measurement. A command acts from its arrival at the device. Limits of finger joints and
+  /// half-spaces act until they expire.
   GloveState step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace = 1.0) noexcept;
 
   /// The wearer's present time in the script.

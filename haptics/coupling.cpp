@@ -9,6 +9,16 @@
 #include "loop/loop_settings.h"
 
 namespace glissade::haptics {
+namespace {
+
+/// Of springs at the hand, by the damping of the device alone.
+contact::CouplingStiffness damping_over_lag(const devices::DeviceDescriptor& device, double lag) noexcept {
+  const double own_lag = devices::tool_lag(device, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0));
+  return {devices::passive_limit(device.damping, device.max_stiffness, own_lag, lag),
+          devices::passive_limit(device.rotational_damping, device.max_rotational_stiffness, own_lag, lag)};
+}
+
+}  // namespace
 
 void validate_tick_period(std::chrono::nanoseconds period) {
   if (kShortestTickPeriod <= period && period <= kLongestTickPeriod) return;
@@ -18,10 +28,7 @@ void validate_tick_period(std::chrono::nanoseconds period) {
 
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept {
-  const double lag = devices::lag_of(device, period, delay);
-  contact::CouplingStiffness limit{
-      devices::passive_limit(device, device.damping, device.max_stiffness, lag),
-      devices::passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag)};
+  contact::CouplingStiffness limit = damping_over_lag(device, devices::tool_lag(device, period, delay));
   if (device.friction > 0.0 && device.resolution > 0.0) {
     limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
   }
@@ -40,14 +47,13 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::Co
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
                                 double lever) noexcept {
-  const double lag = devices::lag_of(device, period, delay);
+  const double lag = devices::tool_lag(device, period, delay);
   // What the device's own damping leaves.
   const auto damping = [lag](double stiffness, double limit) {
     return std::clamp((limit - stiffness) * lag, 0.0, kLoop.damping_time_s * stiffness);
   };
-  const LeverLimit limit{
-      devices::passive_limit(device, device.damping, device.max_stiffness, lag),
-      devices::passive_limit(device, device.rotational_damping, device.max_rotational_stiffness, lag), lever};
+  const contact::CouplingStiffness greatest = damping_over_lag(device, lag);
+  const LeverLimit limit{greatest.translational, greatest.rotational, lever};
   const contact::CouplingStiffness passive = passive_stiffness(device, period, delay);
   Coupling coupling;
   contact::CouplingStiffness& K = coupling.stiffness;

@@ -44,9 +44,10 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
   const double wanted = device.max_joint_torque / kLoop.full_torque_rad;
   const bool has_steps = device.joint_friction > 0.0 && device.joint_resolution > 0.0;
   const double without_buzz = has_steps ? 2.0 * device.joint_friction / device.joint_resolution : wanted;
-  return std::min(
-      {wanted, without_buzz, devices::joint_torque_rate(device) / kLoop.fastest_finger_rad_per_s,
-       devices::passive_limit(device, device.joint_damping, wanted, devices::lag_of(device, period, link_delay))});
+  const double own_lag = devices::lag_of(device, std::chrono::nanoseconds(0), std::chrono::nanoseconds(0));
+  const double lag = devices::lag_of(device, period, link_delay);
+  return std::min({wanted, without_buzz, devices::joint_torque_rate(device) / kLoop.fastest_finger_rad_per_s,
+                   devices::passive_limit(device.joint_damping, wanted, own_lag, lag)});
 }
 
 FingerForces::FingerForces(const FingerHand& hand, const devices::DeviceDescriptor& device,
@@ -75,8 +76,7 @@ const hands::JointValues& FingerForces::update(const hands::JointValues& angles,
     deepen(row, lags_, depths_);
   const double share = force_share(age);
   for (std::size_t j = 0; j < angles.size(); ++j) {
-    const bool is_absent = device_.joint_lower[j] == 0.0 && device_.joint_upper[j] == 0.0;
-    if (depths_[j] == 0.0 || is_absent) continue;
+    if (depths_[j] == 0.0 || !device_.drives(j)) continue;
     torques_[j] = -std::copysign(share * std::min(stiffness_ * depths_[j], device_.max_joint_torque), lags_[j]);
   }
   return torques_;

@@ -9,6 +9,7 @@
 #include <glissade/haptics/haptic_kernel.h>
 
 #include "loop/contact_projection.h"
+#include "loop/half_spaces_of_hand.h"
 #include "loop/hand_in_device.h"
 #include "loop/hand_ledger.h"
 #include "loop/holds.h"
@@ -29,6 +30,10 @@ void check_count(std::size_t count, std::size_t most, const std::string& what) {
 double share_of(const Eigen::Vector3d& exerted, const Eigen::Vector3d& wanted) {
   const double square = wanted.squaredNorm();
   return square > 0.0 ? std::clamp(exerted.dot(wanted) / square, 0.0, 1.0) : 0.0;
+}
+
+bool takes_half_spaces(const HandInDevice& hand) {
+  return hand.envelope.descriptor().tool_command == devices::ToolCommand::kHalfSpaces;
 }
 
 bool has_pose(const devices::GloveState& state) {
@@ -295,6 +300,7 @@ void HapticKernel::exert(HandInDevice& hand, Rendering& r) noexcept {
     const double pull = r.tick.pull.f.norm();
     const double most = kLoop.headroom * hand.envelope.descriptor().max_force;
     if (pull > most) r.tick.pull = scaled(r.tick.pull, most / pull);
+    if (takes_half_spaces(hand)) r.tick.pull = {};
   }
   r.tick.contacts = hand.contacts.update(r.contacts, r.age, motion, r.dt);
   r.tick.contact_share = hand.contacts.share();
@@ -320,10 +326,13 @@ double HapticKernel::book(HandInDevice& hand, const Rendering& r) noexcept {
                                   .from_elsewhere = lifted + share * r.contacts.from_movers});
 }
 
-/// The wanted wrench on the hand root, and the torques or limits of the joints.
+/// The wanted wrench or half-spaces of the hand root, and the torques or limits of the joints.
 void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCommand& command) noexcept {
   const HandTick& tick = r.tick;
-  if (r.has_pose) {
+  if (takes_half_spaces(hand)) {
+    hold(hand, r);
+    command.half_spaces = hand.half_spaces;
+  } else if (r.has_pose) {
     const Eigen::Vector3d v_Wref = r.state.v_WH + r.state.w_WH.cross(r.p_Wref - r.p_WH);
     const contact::Wrench damping = damper_wrench(hand.present.damping, tick.contacts, v_Wref, r.state.w_WH);
     const contact::Wrench on_hand = contact::about_point(
@@ -332,7 +341,7 @@ void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCo
     command.t_H_W = on_hand.t;
   }
   if (hand.fingers && hand.fingers->takes_limits()) {
-    command.joint_limits = hand.fingers->limits(r.set.hands[r.number], r.age);
+    command.joint_limits = hand.fingers->limits(r.set.hands[r.number], r.age, r.dt);
   } else if (hand.fingers) {
     const FingerLoad::Load load{tick.part ? static_cast<std::int32_t>(*tick.part) : -1,
                                 {tick.contacts.f + tick.pull.f, tick.contacts.t + tick.pull.t},
@@ -340,6 +349,30 @@ void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCo
                                 r.lever};
     command.joint_torques = hand.fingers->torques(r.state, r.set.hands[r.number], r.age, load, r.dt);
   }
+}
+
+/// The half-spaces that exert the force of the contacts. Where this force is not yet or no longer that of the contacts,
+/// it bounds the force of the half-spaces, as the share of an old set does.
+void HapticKernel::hold(HandInDevice& hand, const Rendering& r) noexcept {
+  const devices::DeviceDescriptor& device = hand.envelope.descriptor();
+  const contact::CouplingStiffness& K = hand.couplings[r.part()].stiffness;
+  const double exerted = size_of(r.tick.contacts, K);
+  const double demanded = size_of(r.contacts.wrench, K);
+  constexpr double kRounding = 1e-9;
+  if (exerted > demanded * (1.0 + kRounding)) {  // contacts that vanished under the hand
+    hand.half_spaces.max_force = exerted;
+    return;
+  }
+  hand.half_spaces = {};
+  if (!r.tick.part || !r.has_pose) return;
+  std::array<contact::ConstraintRow, devices::kMaxHalfSpaces> rows;
+  const std::size_t count = contacts_->constraints_of(*r.tick.part, rows);
+  const Coupling coupling{{r.softness * K.translational, r.softness * K.rotational}, hand.present.damping};
+  hand.half_spaces = half_spaces_of_hand(r.state.X_WH, holds_->ghost_of_hand(r.number), r.set.parts[*r.tick.part],
+                                         {rows.data(), count}, coupling);
+  const double most = r.tick.contact_share * device.max_force;
+  hand.half_spaces.max_force = exerted < demanded * (1.0 - kRounding) ? std::min(exerted, most) : most;
+  hand.half_spaces.max_torque = device.max_torque;
 }
 
 double HapticKernel::seconds_since_last_tick(std::chrono::nanoseconds now) noexcept {

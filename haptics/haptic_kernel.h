@@ -78,7 +78,8 @@ struct HandTick {
   contact::Wrench pull;             ///< wrench of other hands' pull on the part, about the same point
   double contact_share = 1.0;       ///< allowed share of the contact force; see `HapticHandState::contact_share`
   bool is_unsolved = false;         ///< the contacts have no solution, so their wrench goes towards zero
-  /// Wrench of contacts, pull and damper about the hand root, limited by the safety envelope. Zero without a state.
+  /// Wrench of contacts, pull and damper about the hand root, limited by the safety envelope. A device that takes
+  /// half-spaces gets those of the contacts instead, without friction and pull. Zero without a state.
   devices::SafeCommand command;
 };
 
@@ -148,6 +149,7 @@ class HapticKernel {
   void exert(HandInDevice& hand, Rendering& r) noexcept;
   double book(HandInDevice& hand, const Rendering& r) noexcept;
   void fill(HandInDevice& hand, const Rendering& r, devices::GloveCommand& command) noexcept;
+  void hold(HandInDevice& hand, const Rendering& r) noexcept;
 
   std::vector<KernelPart> parts_;
   std::chrono::nanoseconds period_;

@@ -116,6 +116,7 @@ devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand) {
   device.limit_delay = std::chrono::milliseconds(1);
   device.max_joint_torque = std::numeric_limits<double>::infinity();
   device.max_limit_stiffness = hand.max_stiffness;
+  device.undriven_joints.set();
   const auto announce = [&device](int joint) {
     device.joint_lower[index_of(joint)] = hands::kJointRanges[index_of(joint)].lower_deg * kDegree;
     device.joint_upper[index_of(joint)] = hands::kJointRanges[index_of(joint)].upper_deg * kDegree;
@@ -123,6 +124,7 @@ devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand) {
   for (const DynamixelServo& servo : hand.servos) {
     const JointScale scale(hand, servo, model);
     announce(servo.joint);
+    device.undriven_joints.reset(index_of(servo.joint));
     // One number for all joints: what each of them can give.
     device.max_joint_torque = std::min(device.max_joint_torque, scale.max_torque());
     device.max_limit_stiffness = std::min(device.max_limit_stiffness, scale.max_stiffness());

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "envelope/envelope_numbers.h"
 #include "envelope/envelope_settings.h"
@@ -20,9 +21,10 @@ EnergyLimit::EnergyLimit(const DeviceDescriptor& descriptor, const RateLimit& ra
              std::chrono::duration_cast<nanoseconds>(std::chrono::duration<double>(1.0 / descriptor.update_rate))),
       strokes_(descriptor.resolution, descriptor.max_force),
       refill_(kEnvelope.most_refill_J) {
-  const double lag = lag_of(descriptor, period, nanoseconds(0));
+  const double lag = tool_lag(descriptor, period, nanoseconds(0));
+  const double own_lag = tool_lag(descriptor, nanoseconds(0), nanoseconds(0));
   const auto passive = [&](double damping, double largest) {
-    return std::min(largest, passive_limit(descriptor, damping, largest, lag));
+    return std::min(largest, passive_limit(damping, largest, own_lag, lag));
   };
   stiffness_ = passive(descriptor.damping, descriptor.max_stiffness);
   rotational_stiffness_ = passive(descriptor.rotational_damping, descriptor.max_rotational_stiffness);
@@ -85,22 +87,43 @@ void EnergyLimit::take_supply(const GloveCommand& wanted, bool is_fading, double
 /// interruptions use it up. It also pays off slowly what a contact has given too much, e.g. because its contacts
 /// vanished for a moment: but only while nothing oscillates, whether the hand seems to put in more than it gets or not.
 /// In each stroke of an oscillation, it does so for a while.
-void EnergyLimit::settle(const Forces& forces, bool returns, nanoseconds now, double dt) noexcept {
-  const bool has_contact = has_force_ || forces.has_wrench();
+void EnergyLimit::settle(const Forces& forces, const HeldEnergy& held, bool returns, nanoseconds now,
+                         double dt) noexcept {
+  const bool has_contact = has_force_ || forces.has_wrench() || held.presses;
+  energy_ += held.returned;
   enough_ = kEnvelope.start_energy_J;
-  if (has_contact)
-    enough_ = std::clamp(work_of_last_way(forces) + work_of_fall(forces), kEnvelope.start_energy_J, most());
+  if (has_contact) {
+    const double needed = work_of_last_way(forces) + work_of_fall(forces) + std::max(0.0, held.gain);
+    enough_ = std::clamp(needed, kEnvelope.start_energy_J, most());
+  }
   refill_ = std::min(kEnvelope.most_refill_J, refill_ + kEnvelope.refill_W * dt);
   if (returns) free_until_ = now + kEnvelope.return_is_free;
   strokes_.forget(dt);
   if (energy_ < enough_) {
-    const double recovery = has_contact ? strokes_.calm() * kEnvelope.calm_refill_W : kEnvelope.recovery_W;
+    const double recovery = recovery_W(has_contact, held);
     const double most = now < free_until_ ? refill_ : std::min(refill_, recovery * dt);
     const double refilled = std::min(enough_ - energy_, most);
     refill_ -= refilled;
     energy_ += refilled;
   }
   if (!has_contact) energy_ = std::min(kEnvelope.start_energy_J, energy_);
+}
+
+/// Half-spaces that push a hand, and open before it comes back, only give energy. So what they lack recovers while the
+/// hand rests.
+double EnergyLimit::recovery_W(bool has_contact, const HeldEnergy& held) const noexcept {
+  if (descriptor_.tool_command == ToolCommand::kHalfSpaces)
+    return held.rests ? kEnvelope.calm_refill_W : kEnvelope.limits_refill_W;
+  return has_contact ? strokes_.calm() * kEnvelope.calm_refill_W : kEnvelope.recovery_W;
+}
+
+double EnergyLimit::available(const GloveState& state) const noexcept {
+  if (state.link_delay > nanoseconds(0)) return std::numeric_limits<double>::infinity();
+  return std::max(0.0, energy_);
+}
+
+void EnergyLimit::pay(double gain, const GloveState& state) noexcept {
+  if (state.link_delay == nanoseconds(0)) energy_ = std::min(energy_ - gain, most());
 }
 
 // A glove behind a link has an envelope of its own, which knows the motion without delay.
@@ -158,8 +181,7 @@ double EnergyLimit::work_of_fall(const Forces& forces) const noexcept {
   return stored(forces.f, stiffness_) + stored(forces.t, rotational_stiffness_);
 }
 
-void EnergyLimit::observe_given(const Forces& wanted, const Forces& given, nanoseconds now) noexcept {
-  supply_.observe_given(wanted, given, descriptor_);
+void EnergyLimit::observe_given(const Forces& given, nanoseconds now) noexcept {
   given_.give(now, given.f, given.t);
   has_force_ = given.has_wrench();
 }

@@ -71,7 +71,8 @@ struct EnvelopeSettings {
   double limits_refill_W = 5e-3;
   double limits_rest_refill_W = 0.2;  ///< while all fingers rest. Less: limits return late after an interruption
   double resting_rad_per_s = 0.5;     ///< a slower finger rests
-  double finger_rate_s = 0.03;        ///< over which its rate is averaged: steps of an angle sensor are no motion
+  double resting_m_per_s = 0.03;      ///< a slower hand rests (promise 11)
+  double rate_averaged_s = 0.03;      ///< over which a rate is averaged: steps of a sensor are no motion
   double rested_s = 0.2;              ///< after so long. Less: a finger that swings rests at each end of its stroke
   double limits_last_periods = 3.0;   ///< of the device without a command, then it opens them. Fewer: lost packets open
 

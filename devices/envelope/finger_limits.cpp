@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "envelope/envelope_numbers.h"
 #include "envelope/envelope_settings.h"
 
 namespace glissade::devices {
@@ -31,10 +32,7 @@ FingerLimits::FingerLimits(const DeviceDescriptor& descriptor, double period_s)
       stiffness_(passive_limit_stiffness(descriptor)),
       torque_rate_(joint_torque_rate(descriptor)),
       fade_s_(kEnvelope.fade_periods * period_s),
-      expiry_(std::max<std::chrono::nanoseconds>(
-          kEnvelope.exerted_without_command,
-          std::chrono::duration_cast<std::chrono::nanoseconds>(
-              std::chrono::duration<double>(kEnvelope.limits_last_periods * period_s)))),
+      expiry_(expiry_of_limits(period_s)),
       energy_(kEnvelope.limits_start_J) {}
 
 const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::JointValues& angles, bool is_fading,
@@ -56,7 +54,7 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
       if (limit.max_torque == 0.0) limit = {};
       continue;
     }
-    limit = within_device(wanted.joints[j], reasons);
+    limit = within_device(j, wanted.joints[j], reasons);
     limit.max_torque *= fade.gain();
     if (is_absent(limit)) limit = {};
     if (tighten(limit, last, angles[j], dt)) reasons.rate_limited = true;
@@ -71,7 +69,7 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
 /// Steps of an angle sensor are no motion: a joint moves when it leaves a play of one step.
 void FingerLimits::observe_rates(const hands::JointValues& angles, double dt) noexcept {
   if (dt <= 0.0) return;
-  const double share = std::min(1.0, dt / kEnvelope.finger_rate_s);
+  const double share = std::min(1.0, dt / kEnvelope.rate_averaged_s);
   const double play = descriptor_.joint_resolution;
   double fastest = 0.0;
   for (std::size_t j = 0; j < hands::kJoints; ++j) {
@@ -83,13 +81,14 @@ void FingerLimits::observe_rates(const hands::JointValues& angles, double dt) no
   resting_for_s_ = fastest < kEnvelope.resting_rad_per_s ? resting_for_s_ + dt : 0.0;
 }
 
-JointLimit FingerLimits::within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept {
+JointLimit FingerLimits::within_device(std::size_t joint, const JointLimit& wanted,
+                                       LimitReasons& reasons) const noexcept {
   JointLimit limit = wanted;
-  if (is_absent(limit) || limit.lower > limit.upper) return {};
+  if (is_absent(limit) || limit.lower > limit.upper || descriptor_.undriven_joints[joint]) return {};
   if (limit.max_torque > descriptor_.max_joint_torque) reasons.joints_limited = true;
   limit.max_torque = std::min(limit.max_torque, descriptor_.max_joint_torque);
   limit.stiffness = std::min(limit.stiffness, stiffness_);
-  limit.damping = std::clamp(limit.damping, 0.0, descriptor_.joint_damping);
+  limit.damping = std::clamp(limit.damping, 0.0, passive_limit_damping(descriptor_, limit.stiffness));
   return limit;
 }
 

@@ -27,7 +27,7 @@ class FingerLimits {
                            const Fade& fade, double dt, LimitReasons& reasons) noexcept;
 
  private:
-  JointLimit within_device(const JointLimit& wanted, LimitReasons& reasons) const noexcept;
+  JointLimit within_device(std::size_t joint, const JointLimit& wanted, LimitReasons& reasons) const noexcept;
   bool tighten(JointLimit& limit, const JointLimit& last, double angle, double dt) const noexcept;
   void observe_rates(const hands::JointValues& angles, double dt) noexcept;
   void remember(const hands::JointValues& angles) noexcept;

@@ -44,22 +44,26 @@ double seconds_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
 void NormLimit::limit(Forces& forces, LimitReasons& reasons) const noexcept {
   reasons.force_limited = limit_norm(forces.f, descriptor_.max_force);
   reasons.torque_limited = limit_norm(forces.t, descriptor_.max_torque);
-  const double joint_limit = descriptor_.max_joint_torque;
-  for (double& torque : forces.joints) {
+  for (std::size_t j = 0; j < hands::kJoints; ++j) {
+    const double joint_limit = descriptor_.undriven_joints[j] ? 0.0 : descriptor_.max_joint_torque;
+    double& torque = forces.joints[j];
     if (std::abs(torque) <= joint_limit) continue;
     torque = std::copysign(joint_limit, torque);
     reasons.joints_limited = true;
   }
-  const double largest_mean = descriptor_.max_mean_force;
-  if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return;
-  const double excess =
-      std::clamp((mean_force_ / largest_mean - kEnvelope.soft_mean) / (1.0 - kEnvelope.soft_mean), 0.0, 1.0);
-  const double limit = descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
-  reasons.mean_limited = excess > 0.0 && limit_norm(forces.f, limit);
+  reasons.mean_limited = limit_norm(forces.f, largest_force());
 }
 
-void NormLimit::observe_given(const Forces& forces, double dt) noexcept {
-  mean_force_ += std::min(1.0, dt / kEnvelope.mean_time_s) * (forces.f.norm() - mean_force_);
+double NormLimit::largest_force() const noexcept {
+  const double largest_mean = descriptor_.max_mean_force;
+  if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return descriptor_.max_force;
+  const double excess =
+      std::clamp((mean_force_ / largest_mean - kEnvelope.soft_mean) / (1.0 - kEnvelope.soft_mean), 0.0, 1.0);
+  return descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
+}
+
+void NormLimit::observe_given(const Eigen::Vector3d& f, double dt) noexcept {
+  mean_force_ += std::min(1.0, dt / kEnvelope.mean_time_s) * (f.norm() - mean_force_);
 }
 
 void limit_power(Forces& forces, const GloveState& state, double max_power, LimitReasons& reasons) noexcept {
@@ -83,7 +87,7 @@ void RateLimit::limit(Forces& forces, const Forces& last, double dt, LimitReason
   // The sum above may exceed a limit by rounding.
   limit_norm(forces.f, max_force_);
   limit_norm(forces.t, max_torque_);
-  reasons.rate_limited = force_limited || torque_limited;
+  reasons.rate_limited = reasons.rate_limited || force_limited || torque_limited;
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     const double step = joint_torque_rate_ * dt;
     const double limited = std::clamp(forces.joints[i], last.joints[i] - step, last.joints[i] + step);

@@ -12,7 +12,9 @@ class NormLimit {
   explicit NormLimit(const DeviceDescriptor& descriptor) : descriptor_(descriptor) {}
 
   void limit(Forces& forces, LimitReasons& reasons) const noexcept;
-  void observe_given(const Forces& forces, double dt) noexcept;
+  /// The largest force that the mean permits, N.
+  double largest_force() const noexcept;
+  void observe_given(const Eigen::Vector3d& f, double dt) noexcept;
 
  private:
   const DeviceDescriptor& descriptor_;
@@ -33,6 +35,8 @@ class RateLimit {
   /// Seconds in which the wrench falls to zero.
   double time_to_zero(const Forces& forces) const noexcept;
 
+  double force_rate() const noexcept { return force_rate_; }    ///< N/s
+  double torque_rate() const noexcept { return torque_rate_; }  ///< Nm/s
   double max_force() const noexcept { return max_force_; }
   double max_torque() const noexcept { return max_torque_; }
 

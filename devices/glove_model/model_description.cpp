@@ -32,9 +32,27 @@ double lag_of(const ActuatorModel& actuator) {
   return 1.0 / (2.0 * std::numbers::pi * actuator.bandwidth);
 }
 
+std::bitset<hands::kJoints> undriven_joints(const GloveModel& model) {
+  std::bitset<hands::kJoints> undriven;
+  if (model.fingers == FingerKind::kIdeal || model.fingers == FingerKind::kAbsent) return undriven;
+  undriven.set();
+  if (has_section(model, ModelSection::kActuator)) {
+    for (std::size_t i = 0; i < hands::kJoints; ++i)
+      undriven[i] = !model.actuator.is_driven[i];
+  }
+  if (model.fingers == FingerKind::kCurlLimit) {
+    for (const auto& finger : kFlexionsOfFingers) {
+      for (const std::size_t joint : finger)
+        undriven.reset(joint);
+    }
+  }
+  return undriven;
+}
+
 void describe_fingers(const GloveModel& model, DeviceDescriptor& descriptor) {
   const FingerKind kind = model.fingers;
   descriptor.finger_command = command_of(kind);
+  descriptor.undriven_joints = undriven_joints(model);
   if (kind != FingerKind::kAbsent) {
     for (std::size_t i = 0; i < hands::kJoints; ++i) {
       descriptor.joint_lower[i] = radians(hands::kJointRanges[i].lower_deg);
@@ -96,6 +114,11 @@ DeviceDescriptor descriptor_of(const GloveModel& model) {
     descriptor.max_damping = wrist.max_damping;
     descriptor.damping = wrist.damping;
     descriptor.rotational_damping = wrist.rotational_damping;
+  }
+  if (wrist.holds_half_spaces) {
+    descriptor.tool_command = ToolCommand::kHalfSpaces;
+    descriptor.tool_rate = wrist.loop_rate;
+    descriptor.tool_delay = nanoseconds_of(wrist.loop_delay);
   }
   // What exerts nothing cannot shake. A server then couples the part to the hand as for the ideal arm.
   if (descriptor.max_force == 0.0) descriptor.max_stiffness = kStiffnessWithoutForce;

@@ -69,10 +69,13 @@ class ModelFile {
 
   void read_wrist(const YAML::Node& wrist) {
     reader_.check_map(wrist, "wrist");
-    model_.wrist.is_grounded = choice(wrist, "wrist", {"tracker", "grounded"}) == 1;
-    check_keys(wrist, "wrist", {"kind"}, {ModelSection::kWrist, ModelSection::kGroundedWrist});
-    read_numbers(wrist, ModelSection::kWrist);
-    read_numbers(wrist, ModelSection::kGroundedWrist);
+    const std::size_t kind = choice(wrist, "wrist", {"tracker", "grounded", "half-spaces"});
+    model_.wrist.is_grounded = kind > 0;
+    model_.wrist.holds_half_spaces = kind == 2;
+    using enum ModelSection;
+    check_keys(wrist, "wrist", {"kind"}, {kWrist, kGroundedWrist, kHoldingWrist});
+    for (const ModelSection section : {kWrist, kGroundedWrist, kHoldingWrist})
+      read_numbers(wrist, section);
   }
 
   void read_fingers(const YAML::Node& fingers) {

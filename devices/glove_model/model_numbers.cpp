@@ -27,7 +27,9 @@ void add_wrist(GloveModel& m, std::vector<ModelNumber>& numbers) {
                   {kGroundedWrist, "max_rotational_stiffness_Nm_per_rad", &w.max_rotational_stiffness, 0, kMost, true},
                   {kGroundedWrist, "max_damping_N_s_per_m", &w.max_damping, 0, kMost, true},
                   {kGroundedWrist, "damping_N_s_per_m", &w.damping, 0, 100, true},
-                  {kGroundedWrist, "rotational_damping_Nm_s_per_rad", &w.rotational_damping, 0, 1, true}});
+                  {kGroundedWrist, "rotational_damping_Nm_s_per_rad", &w.rotational_damping, 0, 1, true},
+                  {kHoldingWrist, "loop_rate_Hz", &w.loop_rate, 1, kFastest, true},
+                  {kHoldingWrist, "loop_delay_s", &w.loop_delay, 0, kLongest, true}});
 }
 
 void add_wearer(GloveModel& m, std::vector<ModelNumber>& numbers) {
@@ -111,7 +113,8 @@ std::vector<ModelNumber> numbers_of(GloveModel& m) {
 }
 
 std::string_view key_of(ModelSection section) noexcept {
-  constexpr std::array<std::string_view, 10> kKeys{"",
+  constexpr std::array<std::string_view, 11> kKeys{"",
+                                                   "wrist",
                                                    "wrist",
                                                    "wrist",
                                                    "fingers",
@@ -129,6 +132,8 @@ bool has_section(const GloveModel& model, ModelSection section) noexcept {
   switch (section) {
     case kGroundedWrist:
       return model.wrist.is_grounded;
+    case kHoldingWrist:
+      return model.wrist.holds_half_spaces;
     case kIdealFingers:
       return kind == FingerKind::kIdeal;
     case kWearer:

@@ -15,6 +15,7 @@ enum class ModelSection {
   kRoot,
   kWrist,
   kGroundedWrist,
+  kHoldingWrist,
   kIdealFingers,
   kWearer,
   kActuator,

@@ -42,6 +42,7 @@ ModelledGlove::ModelledGlove(const GloveModel& model, const GloveState& start)
       commands_(delay_line_capacity(model.link.delay + model.link.jitter, model.update_rate)),
       heard_at_(start.time) {
   if (has_dynamics(model.fingers)) fingers_.emplace(model, start.joint_angles);
+  if (model.wrist.holds_half_spaces) tool_.emplace(model.wrist, start.time);
 }
 
 std::chrono::nanoseconds ModelledGlove::link_delay() noexcept {

@@ -1,6 +1,7 @@
 #pragma once
 
-/// What a `GloveModel` adds to a simulated glove: the fingers, the measurement, and the link to the server.
+/// What a `GloveModel` adds to a simulated glove: the fingers, the loop of the arm, the measurement, and the link to
+/// the server.
 
 #include <chrono>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "glove_model/delay_line.h"
 #include "glove_model/finger_dynamics.h"
 #include "glove_model/random_numbers.h"
+#include "glove_model/tool_loop.h"
 
 namespace glissade::devices {
 
@@ -34,6 +36,9 @@ class ModelledGlove {
   /// The newest state that has arrived at the server.
   const GloveState& state() const noexcept { return state_; }
 
+  /// The loop of an arm that holds half-spaces, or null.
+  ToolLoop* tool() noexcept { return tool_ ? &*tool_ : nullptr; }
+
   /// Fingers with dynamics, or null.
   FingerDynamics* fingers() noexcept { return fingers_ ? &*fingers_ : nullptr; }
 
@@ -45,6 +50,7 @@ class ModelledGlove {
 
   GloveModel model_;
   std::optional<FingerDynamics> fingers_;
+  std::optional<ToolLoop> tool_;
   RandomNumbers sensor_random_;
   RandomNumbers link_random_;
   hands::JointValues drifts_{};  ///< rad

@@ -9,7 +9,7 @@
 #include <glissade/lcmtypes/glove_state_t.hpp>
 
 #include "descriptor/bad_field.h"
-#include "lcm/limit_message.h"
+#include "lcm/constraint_messages.h"
 #include "lcm/message_fields.h"
 
 namespace glissade::devices {
@@ -25,7 +25,7 @@ DecodeResult check(const glove_state_t& message) noexcept {
   fields.between("enabled", message.enabled, 0, 1);
   fields.not_negative("grip", message.grip);
   fields.magnitude("position_WH_m", message.position_WH_m, kLargestPosition);
-  fields.unit_quaternion("orientation_WH_wxyz", message.orientation_WH_wxyz);
+  fields.unit_vector("orientation_WH_wxyz", message.orientation_WH_wxyz);
   fields.magnitude("v_WH_m_per_s", message.v_WH_m_per_s, kLargestVelocity);
   fields.magnitude("w_WH_rad_per_s", message.w_WH_rad_per_s, kLargestAngularVelocity);
   fields.magnitude("joint_angles_rad", message.joint_angles_rad, kLargestAngle);
@@ -54,6 +54,7 @@ DecodeResult check(const glove_command_t& message) noexcept {
     fields.magnitude("joint_limits.max_torque_Nm", limit.max_torque_Nm, kLargestTorque);
   }
   fields.time("limits_expire_ns", message.limits_expire_ns);
+  check_half_spaces(message.half_spaces, fields);
   fields.magnitude("supply_J", message.supply_J, kLargestEnergy);
   return fields.result();
 }
@@ -85,6 +86,7 @@ void for_each_limit(Message& message, Descriptor& descriptor, const Use& use) {
   use(message.update_rate_Hz, descriptor.update_rate);
   use(message.limit_rate_Hz, descriptor.limit_rate);
   use(message.max_limit_stiffness_Nm_per_rad, descriptor.max_limit_stiffness);
+  use(message.tool_rate_Hz, descriptor.tool_rate);
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     use(message.joint_lower_rad[i], descriptor.joint_lower[i]);
     use(message.joint_upper_rad[i], descriptor.joint_upper[i]);
@@ -107,6 +109,9 @@ std::vector<std::uint8_t> encode(const GloveInfo& info) {
   message.delay_ns = info.descriptor.delay.count();
   message.finger_command = static_cast<std::int32_t>(info.descriptor.finger_command);
   message.limit_delay_ns = info.descriptor.limit_delay.count();
+  message.undriven_joints = static_cast<std::int32_t>(info.descriptor.undriven_joints.to_ulong());
+  message.tool_command = static_cast<std::int32_t>(info.descriptor.tool_command);
+  message.tool_delay_ns = info.descriptor.tool_delay.count();
   return to_bytes(message);
 }
 
@@ -151,6 +156,7 @@ std::vector<std::uint8_t> encode(const CommandHeader& header, const GloveCommand
   for (std::size_t j = 0; j < hands::kJoints; ++j)
     message.joint_limits[j] = limit_message(command.joint_limits.joints[j]);
   message.limits_expire_ns = command.joint_limits.expiry.count();
+  message.half_spaces = half_spaces_message(command.half_spaces);
   return to_bytes(message);
 }
 
@@ -164,6 +170,9 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   fields.time("delay_ns", message.delay_ns);
   fields.time("limit_delay_ns", message.limit_delay_ns);
   fields.between("finger_command", message.finger_command, 0, kFingerCommands - 1);
+  fields.between("undriven_joints", message.undriven_joints, 0, (1 << hands::kJoints) - 1);
+  fields.between("tool_command", message.tool_command, 0, kToolCommands - 1);
+  fields.time("tool_delay_ns", message.tool_delay_ns);
   fields.between("side", message.side, 0, glove_state_t::SIDE_RIGHT);
   fields.between("calibrated", message.calibrated, 0, 1);
   fields.between("name", message.name[std::size(message.name) - 1], 0, 0);
@@ -173,6 +182,9 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, GloveInfo& info) noexce
   descriptor.delay = std::chrono::nanoseconds(message.delay_ns);
   descriptor.limit_delay = std::chrono::nanoseconds(message.limit_delay_ns);
   descriptor.finger_command = FingerCommand{message.finger_command};
+  descriptor.undriven_joints = static_cast<unsigned long>(message.undriven_joints);
+  descriptor.tool_command = ToolCommand{message.tool_command};
+  descriptor.tool_delay = std::chrono::nanoseconds(message.tool_delay_ns);
   if (fields.result() != MessageError::kNone) return fields.result();
   if (const std::optional<BadField> bad = first_bad_field(descriptor))
     return {MessageError::kOutOfRange, {.name = bad->name, .value = bad->value}};
@@ -226,6 +238,7 @@ DecodeResult decode(std::span<const std::uint8_t> bytes, CommandHeader& header, 
   for (std::size_t j = 0; j < hands::kJoints; ++j)
     command.joint_limits.joints[j] = limit_of(message.joint_limits[j]);
   command.joint_limits.expiry = std::chrono::nanoseconds(message.limits_expire_ns);
+  command.half_spaces = half_spaces_of(message.half_spaces);
   command.supply = message.supply_J;
   return MessageError::kNone;
 }

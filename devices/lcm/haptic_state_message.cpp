@@ -35,9 +35,9 @@ DecodeResult check(const haptic_state_t& message) noexcept {
   fields.time("last_duration_ns", message.last_duration_ns);
   for (const haptic_part_t& part : message.parts) {
     fields.magnitude("position_WG_m", part.position_WG_m, kLargestPosition);
-    fields.unit_quaternion("orientation_WG_wxyz", part.orientation_WG_wxyz);
+    fields.unit_vector("orientation_WG_wxyz", part.orientation_WG_wxyz);
     fields.magnitude("position_WV_m", part.position_WV_m, kLargestPosition);
-    fields.unit_quaternion("orientation_WV_wxyz", part.orientation_WV_wxyz);
+    fields.unit_vector("orientation_WV_wxyz", part.orientation_WV_wxyz);
     fields.magnitude("p_Vref_m", part.p_Vref_m, kLargestPosition);
     fields.not_negative("contact_count", part.contact_count);
   }
@@ -50,7 +50,7 @@ DecodeResult check(const haptic_state_t& message) noexcept {
     fields.magnitude("glove_energy_J", hand.glove_energy_J, kLargestEnergy);
     fields.between("touching", hand.touching, 0, kAllSegments);
     fields.magnitude("position_WH_m", hand.position_WH_m, kLargestPosition);
-    fields.unit_quaternion("orientation_WH_wxyz", hand.orientation_WH_wxyz);
+    fields.unit_vector("orientation_WH_wxyz", hand.orientation_WH_wxyz);
     fields.magnitude("joint_angles_rad", hand.joint_angles_rad, kLargestAngle);
     fields.magnitude("joint_torques_Nm", hand.joint_torques_Nm, kLargestTorque);
   }

@@ -25,7 +25,7 @@ inline constexpr double kLargestAngle = 2.0 * std::numbers::pi;
 inline constexpr double kLargestForce = 1e6;   // N
 inline constexpr double kLargestTorque = 1e6;  // Nm
 inline constexpr double kLargestEnergy = 1e9;  // J
-inline constexpr double kQuaternionTolerance = 1e-3;
+inline constexpr double kNormTolerance = 1e-3;
 inline constexpr std::int64_t kLargestTime_ns = std::int64_t{1} << 60;  // 36 years
 
 inline void put(const Eigen::Vector3d& vector, double (&out)[3]) {
@@ -84,10 +84,12 @@ class FieldCheck {
     if (std::abs(value) <= largest) return;
     note(std::isfinite(value) ? out_of_range_ : not_finite_, {.name = name, .index = index, .value = value});
   }
-  void unit_quaternion(std::string_view name, const double (&wxyz)[4]) noexcept {
-    magnitude(name, wxyz, 2.0);
-    const double norm = Eigen::Vector4d(wxyz[0], wxyz[1], wxyz[2], wxyz[3]).norm();
-    if (!(std::abs(norm - 1.0) <= kQuaternionTolerance))
+  /// A quaternion or a direction.
+  template <int N>
+  void unit_vector(std::string_view name, const double (&values)[N]) noexcept {
+    magnitude(name, values, 2.0);
+    const double norm = Eigen::Matrix<double, N, 1>(values).norm();
+    if (!(std::abs(norm - 1.0) <= kNormTolerance))
       note(out_of_range_, {.name = name, .value = norm, .wanted = 1.0, .is_norm = true});
   }
   void not_negative(std::string_view name, std::int64_t value) noexcept { integer(name, value, value >= 0); }

@@ -43,6 +43,7 @@ void ContactProjection::update(const ContactSet& set, std::chrono::nanoseconds a
     wanted_[p] = {};
     moved_[p] = {};
     way_[p] = {};
+    projected_[p] = {};
     pushes_[p] = 0.0;
     known_pushes_[p] = 0.0;
     if (!parts[p].acts) {
@@ -77,7 +78,7 @@ void ContactProjection::take_rows(const ContactSet& set, std::chrono::nanosecond
     const bool moves_other = row.other >= 0 && acts_[other];
     if (!acts_[part] && !moves_other) continue;
     if (!row.pushes && across(row, moved_) > row.range) continue;
-    rows_.push_back({row, age < kFullForce ? row.approach * dt : 0.0, &row});
+    rows_.push_back({row, age < kFullForce ? row.approach * dt : 0.0, 0.0, &row});
     rows_.back().row.bound += row.approach * seconds;
     if (!acts_[part] || !moves_other) continue;
     const std::size_t low = std::min(island_[part], island_[other]);
@@ -130,7 +131,9 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
     contacts_[p].is_unsolved = is_unsolved;
     const geometry::Displacement& d = projection.displacements[static_cast<std::size_t>(local_[p])];
     const PartAnswer& answer = set.parts[p];
-    if (!is_unsolved) move_to(p, geometry::displaced(answer.X_WV_of_rows, answer.p_Vref, d), answer.p_Vref, dt);
+    if (is_unsolved) continue;
+    projected_[p] = d;
+    move_to(p, geometry::displaced(answer.X_WV_of_rows, answer.p_Vref, d), answer.p_Vref, dt);
   }
   if (is_unsolved) return;
   for (int i = 0; i < projection.active_count; ++i) {
@@ -138,6 +141,49 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
     add_push(active, projection.force[static_cast<std::size_t>(i)], projection);
   }
   add_friction({stiffness.data(), count}, projection);
+}
+
+std::size_t ContactProjection::constraints_of(std::size_t part,
+                                              std::span<contact::ConstraintRow> nearest) const noexcept {
+  if (!acts_[part] || contacts_[part].is_unsolved) return 0;
+  // Pushing rows are before all others.
+  std::array<double, kMaxContactRows> order;
+  const std::size_t most = std::min(nearest.size(), order.size());
+  std::size_t count = 0;
+  for (const ActiveRow& active : rows_) {
+    const bool is_own = static_cast<std::size_t>(active.row.part) == part;
+    const bool is_other = active.row.other >= 0 && static_cast<std::size_t>(active.row.other) == part;
+    if (!is_own && !is_other) continue;
+    const contact::ConstraintRow row = is_own ? seen_from_part(active.row) : seen_from_other(active.row);
+    const double place = active.push > 0.0 ? -active.push : row.velocity(projected_[part]) - row.bound;
+    std::size_t at = std::min(count, most);
+    while (at > 0 && place < order[at - 1]) {
+      if (at < most) {
+        order[at] = order[at - 1];
+        nearest[at] = nearest[at - 1];
+      }
+      --at;
+    }
+    if (at == most) continue;
+    order[at] = place;
+    nearest[at] = row;
+    count = std::min(count + 1, most);
+  }
+  return count;
+}
+
+contact::ConstraintRow ContactProjection::seen_from_part(const contact::CoupledRow& row) const noexcept {
+  const double of_other =
+      row.other < 0
+          ? 0.0
+          : contact::ConstraintRow{row.n, row.r_other, 0.0}.velocity(projected_[static_cast<std::size_t>(row.other)]);
+  return {row.n, row.r, row.bound + of_other};
+}
+
+contact::ConstraintRow ContactProjection::seen_from_other(const contact::CoupledRow& row) const noexcept {
+  const double of_part =
+      contact::ConstraintRow{row.n, row.r, 0.0}.velocity(projected_[static_cast<std::size_t>(row.part)]);
+  return {-row.n, row.r_other, row.bound - of_part};
 }
 
 /// Friction holds the parts that it rubs back on the way that the contacts leave them, as a share of the force that
@@ -187,6 +233,7 @@ void ContactProjection::move_to(std::size_t part, const Eigen::Isometry3d& X_WP,
 void ContactProjection::add_push(std::size_t row_number, double push,
                                  const contact::CoupledProjection& projection) noexcept {
   const contact::CoupledRow& projected = in_island_[row_number];
+  rows_[numbers_[row_number]].push = push;
   const ContactRow& row = *rows_[numbers_[row_number]].in_set;
   const double known =
       push * smoothly_down(across(projected, projection.displacements) - row.range, kLoop.known_m, kLoop.unknown_m);

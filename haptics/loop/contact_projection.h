@@ -61,18 +61,26 @@ class ContactProjection {
   /// Of the last call. Exactly zero where no contact of the set is in the way.
   const PartContacts& of_part(std::size_t part) const { return contacts_[part]; }
 
+  /// Fills `nearest` with constraints on the displacement of the part from the pose of its rows, and returns how many.
+  /// Those that push come first, the greatest force first; then those with the smallest gap. The other parts stand
+  /// where the last call has put them. None if the rows have no solution.
+  std::size_t constraints_of(std::size_t part, std::span<contact::ConstraintRow> nearest) const noexcept;
+
  private:
   void take_rows(const ContactSet& set, std::chrono::nanoseconds age, double dt) noexcept;
   void choose_island(std::size_t first) noexcept;
   void solve_island(const ContactSet& set, std::span<const LedPart> parts, double dt) noexcept;
   void move_to(std::size_t part, const Eigen::Isometry3d& X_WP, const Eigen::Vector3d& p_Vref, double dt) noexcept;
   void add_push(std::size_t row_number, double push, const contact::CoupledProjection& projection) noexcept;
+  contact::ConstraintRow seen_from_part(const contact::CoupledRow& row) const noexcept;
+  contact::ConstraintRow seen_from_other(const contact::CoupledRow& row) const noexcept;
   void add_friction(std::span<const contact::CouplingStiffness> stiffness,
                     const contact::CoupledProjection& projection) noexcept;
 
   struct ActiveRow {
     contact::CoupledRow row;  // as it is now; the numbers of parts are those in the scene
     double way;               // metres of a body that moves without a hand, along n since the last call
+    double push;              // N
     const ContactRow* in_set;
   };
 
@@ -88,6 +96,7 @@ class ContactProjection {
   std::array<geometry::Displacement, contact::kMaxParts> wanted_{};
   // Since the poses of the rows: the last step, and the ghosts since that.
   std::array<geometry::Displacement, contact::kMaxParts> moved_{};
+  std::array<geometry::Displacement, contact::kMaxParts> projected_{};       // since the poses of the rows
   std::array<std::optional<Eigen::Isometry3d>, contact::kMaxParts> X_WP_{};  // where the last projection put each part
   std::array<geometry::Displacement, contact::kMaxParts> way_{};  // from there to where the present one puts it
   std::array<contact::Wrench, contact::kMaxParts> friction_{};    // of the active rows, if all of it acted

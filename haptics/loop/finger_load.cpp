@@ -24,7 +24,7 @@ FingerLoad::FingerLoad(const devices::DeviceDescriptor& device, std::span<const 
       period_s_(std::chrono::duration<double>(period).count()),
       given_(kGiven) {
   for (std::size_t j = 0; j < bears_.size(); ++j)
-    bears_[j] = device.joint_lower[j] != 0.0 || device.joint_upper[j] != 0.0;
+    bears_[j] = device.drives(j);
   for (const std::size_t j : moves_part)
     bears_[j] = false;
 }

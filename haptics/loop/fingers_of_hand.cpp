@@ -8,6 +8,7 @@
 
 #include <glissade/contact/spring.h>
 
+#include "loop/contact_force.h"
 #include "loop/loop_settings.h"
 
 namespace glissade::haptics {
@@ -66,6 +67,11 @@ bool FingersOfHand::is_new(std::int64_t decision) noexcept {
 void FingersOfHand::set_link_delay(std::chrono::nanoseconds delay) noexcept {
   forces_.set_link_delay(delay);
   load_.set_link(std::chrono::duration<double>(device_.delay + delay).count(), forces_.stiffness());
+}
+
+devices::JointLimits FingersOfHand::limits(const HandAnswer& answer, std::chrono::nanoseconds age, double dt) noexcept {
+  limits_share_ = std::min(force_share(age), limits_share_ + dt / kLoop.return_s);
+  return limits_of_hand(hand_, device_, answer, limits_share_);
 }
 
 hands::JointValues FingersOfHand::torques(const devices::GloveState& state, const HandAnswer& answer,

@@ -39,9 +39,8 @@ class FingersOfHand {
   void set_link_delay(std::chrono::nanoseconds delay) noexcept;
   /// Whether the glove takes limits of its joints instead of torques.
   bool takes_limits() const noexcept { return device_.finger_command != devices::FingerCommand::kTorque; }
-  devices::JointLimits limits(const HandAnswer& answer, std::chrono::nanoseconds age) const noexcept {
-    return limits_of_hand(hand_, device_, answer, age);
-  }
+  /// Limits whose torques fade with the age of the answer as those of springs do, and return within 200 ms.
+  devices::JointLimits limits(const HandAnswer& answer, std::chrono::nanoseconds age, double dt) noexcept;
   /// Torques (Nm) of the springs at the joints, and of the load of the held part.
   hands::JointValues torques(const devices::GloveState& state, const HandAnswer& answer, std::chrono::nanoseconds age,
                              const FingerLoad::Load& load, double dt) noexcept;
@@ -56,6 +55,7 @@ class FingersOfHand {
   FingerForces forces_;
   FingerLoad load_;
   devices::DeviceDescriptor device_;
+  double limits_share_ = 1.0;    // of the largest torque
   hands::JointValues angles_{};  // of the wrist, as the ghost has them
   bool is_found_ = false;        // the angles are those of a state
   std::int64_t decision_ = 0;

@@ -45,7 +45,8 @@ struct HandInDevice {
   double lifts = 1.0;    // J, for which the hand may be lifted; many interruptions use it up
   double taken = 0.0;    // `SafeCommand::taken` of the last command
   contact::Wrench pull;  // of other hands in the last command
-  contact::Wrench solved;  // of the contacts when they last had a solution
+  contact::Wrench solved;           // of the contacts when they last had a solution
+  devices::HalfSpaces half_spaces;  // wanted in the last tick
   std::optional<FingersOfHand> fingers;
 
   /// A hand that sinks while the force of its contacts is withheld is lifted when it returns, as if it had sunk against

@@ -23,7 +23,9 @@ devices::HapticHandState hand_after(const HandTick& tick, const ContactSet& set,
   const devices::GloveCommand& command = tick.command.values();
   const Eigen::Vector3d& p_WH = state.X_WH.translation();
   const Eigen::Vector3d p_Wabout = tick.part ? Eigen::Vector3d(set.parts[*tick.part].X_WV.translation()) : p_WH;
-  const contact::Wrench on_hand = contact::about_point({command.f_H_W, command.t_H_W}, p_WH, p_Wabout);
+  const devices::HandWrench held = devices::half_space_wrench(command.half_spaces, state.X_WH);
+  const contact::Wrench on_hand =
+      contact::about_point({command.f_H_W + held.f_H_W, command.t_H_W + held.t_H_W}, p_WH, p_Wabout);
   devices::HapticHandState hand;
   hand.part = tick.part ? static_cast<std::int32_t>(*tick.part) : -1;
   hand.force_W = on_hand.f;

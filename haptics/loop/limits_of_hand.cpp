@@ -4,21 +4,20 @@
 #include <cmath>
 #include <cstddef>
 
-#include "loop/contact_force.h"
 #include "loop/loop_settings.h"
 
 namespace glissade::haptics {
 
 devices::JointLimits limits_of_hand(const FingerHand& hand, const devices::DeviceDescriptor& device,
-                                    const HandAnswer& answer, std::chrono::nanoseconds age) noexcept {
+                                    const HandAnswer& answer, double share) noexcept {
   devices::JointLimits limits;
-  const double max_torque = force_share(age) * device.max_joint_torque;
+  const double max_torque = share * device.max_joint_torque;
   const double stiffness = devices::passive_limit_stiffness(device);
+  const double damping = std::min(kLoop.damping_time_s * stiffness, devices::passive_limit_damping(device, stiffness));
   for (const FingerRow& row : answer.rows()) {
     for (std::size_t j = 0; j < hands::kJoints; ++j) {
-      const bool is_absent = device.joint_lower[j] == 0.0 && device.joint_upper[j] == 0.0;
       const double arm = std::abs(row.rates[j]);
-      if (is_absent || arm < kLoop.short_arm_m) continue;
+      if (!device.drives(j) || arm < kLoop.short_arm_m) continue;
       devices::JointLimit& limit = limits.joints[j];
       const double visible = answer.visible.angles[j];
       const double free = std::max(0.0, row.gap) / arm;
@@ -28,6 +27,7 @@ devices::JointLimits limits_of_hand(const FingerHand& hand, const devices::Devic
       const bool is_limited = limit.upper < devices::kNoLimit_rad || limit.lower > -devices::kNoLimit_rad;
       if (!is_limited) continue;
       limit.stiffness = stiffness;
+      limit.damping = damping;
       limit.max_torque = max_torque;
     }
   }

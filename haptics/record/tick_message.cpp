@@ -75,6 +75,31 @@ void put_limits(const devices::JointLimits& limits, tick_hand_t& hand, haptic_ti
   }
 }
 
+/// Devices that take a wrench get no half-spaces, and their ticks carry none.
+void put_half_spaces(const devices::HalfSpaces& half_spaces, tick_hand_t& hand, haptic_tick_t& message) {
+  hand.has_half_spaces = half_spaces.any() ? 1 : 0;
+  if (!half_spaces.any()) return;
+  half_spaces_t& entry = message.half_spaces.emplace_back(half_spaces_t{});
+  const Eigen::Vector3d p_WB = half_spaces.X_WB.translation();
+  const Eigen::Quaterniond q_WB(half_spaces.X_WB.linear());
+  put(p_WB.data(), entry.position_WB_m);
+  put(Eigen::Vector4d(q_WB.w(), q_WB.x(), q_WB.y(), q_WB.z()).eval().data(), entry.orientation_WB_wxyz);
+  put(half_spaces.p_HR.data(), entry.position_HR_m);
+  entry.count = static_cast<std::int32_t>(half_spaces.count);
+  for (std::size_t i = 0; i < half_spaces.count; ++i) {
+    const devices::HalfSpace& row = half_spaces.rows[i];
+    put(row.n_W.data(), entry.rows[i].n_W);
+    put(row.r_W.data(), entry.rows[i].r_W_m);
+    entry.rows[i].bound_m = row.bound;
+  }
+  entry.stiffness_N_per_m = half_spaces.stiffness;
+  entry.rotational_stiffness_Nm_per_rad = half_spaces.rotational_stiffness;
+  entry.damping_N_s_per_m = half_spaces.damping;
+  entry.max_force_N = half_spaces.max_force;
+  entry.max_torque_Nm = half_spaces.max_torque;
+  entry.expire_ns = half_spaces.expiry.count();
+}
+
 haptic_tick_t message_of(const TickRecord& record) {
   haptic_tick_t message{};
   message.version = haptic_tick_t::VERSION;
@@ -95,7 +120,9 @@ haptic_tick_t message_of(const TickRecord& record) {
     if (!record.has_state[h]) continue;
     put_state(record.states[h], hand);
     put_command(record.tick.hands[h].command, hand);
-    put_limits(record.tick.hands[h].command.values().joint_limits, hand, message);
+    const devices::GloveCommand& command = record.tick.hands[h].command.values();
+    put_limits(command.joint_limits, hand, message);
+    put_half_spaces(command.half_spaces, hand, message);
   }
   for (std::size_t p = 0; p < static_cast<std::size_t>(record.part_count); ++p)
     message.ghosts.push_back(ghost_message(record.tick.ghosts.parts[p]));
@@ -103,6 +130,7 @@ haptic_tick_t message_of(const TickRecord& record) {
   message.hand_count = record.hand_count;
   message.part_count = record.part_count;
   message.limit_count = static_cast<std::int32_t>(message.limits.size());
+  message.half_spaces_count = static_cast<std::int32_t>(message.half_spaces.size());
   return message;
 }
 
@@ -118,8 +146,8 @@ bool is_message_of(const TickRecord& record, std::span<const std::uint8_t> bytes
 }
 
 std::optional<TickRecord> decode_tick(std::span<const std::uint8_t> bytes) {
-  constexpr std::array<std::int32_t, 4> kLargest{HoldRequests::kMost, hands::kMaxHands, contact::kMaxParts,
-                                                 hands::kMaxHands * hands::kJoints};
+  constexpr std::array<std::int32_t, 5> kLargest{HoldRequests::kMost, hands::kMaxHands, contact::kMaxParts,
+                                                 hands::kMaxHands * hands::kJoints, hands::kMaxHands};
   const auto message = from_checked_bytes<haptic_tick_t>(bytes, kLargest);
   if (!message) return std::nullopt;
   TickRecord record;

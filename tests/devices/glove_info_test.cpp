@@ -33,6 +33,10 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   descriptor.limit_rate = 50.0;
   descriptor.limit_delay = milliseconds(7);
   descriptor.max_limit_stiffness = 3.0;
+  descriptor.undriven_joints.set(0).set(hands::kJoints - 1);
+  descriptor.tool_command = ToolCommand::kHalfSpaces;
+  descriptor.tool_rate = 2000.0;
+  descriptor.tool_delay = milliseconds(2);
   LcmGloveHost host(bus, descriptor, {.device = 3, .side = hands::HandSide::kLeft});
   GloveSearch search(bus);
   std::atomic<bool> should_end{false};
@@ -58,6 +62,10 @@ TEST(GloveInfo, IsAnnouncedWithTheDescriptor) {
   EXPECT_EQ(found->descriptor.limit_rate, 50.0);
   EXPECT_EQ(found->descriptor.limit_delay, milliseconds(7));
   EXPECT_EQ(found->descriptor.max_limit_stiffness, 3.0);
+  EXPECT_EQ(found->descriptor.undriven_joints, descriptor.undriven_joints);
+  EXPECT_EQ(found->descriptor.tool_command, ToolCommand::kHalfSpaces);
+  EXPECT_EQ(found->descriptor.tool_rate, 2000.0);
+  EXPECT_EQ(found->descriptor.tool_delay, milliseconds(2));
   EXPECT_EQ(found->descriptor.joint_upper, descriptor.joint_upper);
   EXPECT_EQ(found->descriptor.update_rate, 1000.0);
 }

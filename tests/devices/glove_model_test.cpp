@@ -84,6 +84,8 @@ TEST_P(Preset, AnnouncesAValidDescriptorWithItsOwnNumbers) {
   EXPECT_GT(descriptor.max_stiffness, 0.0) << "no server takes a device without";
   EXPECT_GT(descriptor.max_rotational_stiffness, 0.0);
   EXPECT_EQ(descriptor.update_rate, model.update_rate);
+  for (std::size_t j = 0; j < hands::kJoints && model.fingers == FingerKind::kJointLimit; ++j)
+    EXPECT_EQ(descriptor.drives(j), model.actuator.is_driven[j]) << j;
   if (descriptor.finger_command == FingerCommand::kTorque) return;
   EXPECT_EQ(descriptor.limit_rate, model.servo.rate);
   EXPECT_EQ(descriptor.max_limit_stiffness, model.servo.max_stiffness);
@@ -162,6 +164,7 @@ TEST(GloveModelFile, ErrorsNameFileLineAndKey) {
   expect_refused(with(kArm, "update_rate_Hz: 1000\n", ""), {"update_rate_Hz", "missing"});
   expect_refused(with(kArm, "absent", "wooden"), {"arm.yaml:14", "kind", "joint-limit", "wooden"});
   expect_refused(with(kArm, "grounded", "tracker"), {"arm.yaml:6", "max_force_N", "unknown key"});
+  expect_refused(with(kArm, "grounded", "half-spaces"), {"arm.yaml:5", "loop_rate_Hz", "missing"});
   expect_refused(kArm + "  servo: {}\n", {"arm.yaml:15", "servo", "unknown key"});
   expect_refused(kArm + "link: {loss: 2}\n", {"arm.yaml:15", "loss", "between 0 and 1"});
   expect_refused(kArm + "seed: 0.5\n", {"arm.yaml:15", "seed", "whole number"});
@@ -210,6 +213,27 @@ TEST(GloveModel, OnlyAGroundedArmPushesTheHand) {
   EXPECT_NEAR(grounded.state().X_WH.translation().x(), 3.0 / SimulatedGloveParameters().wearer_stiffness, 1e-9);
   EXPECT_EQ(free.state().X_WH.translation().x(), 0.0);
   EXPECT_EQ(free.descriptor().max_force, 0.0);
+}
+
+// The wearer's spring of 400 N/m against the one of the device: the hand stops halfway.
+TEST(GloveModel, ArmHoldsHalfSpacesInItsOwnLoop) {
+  const std::string text = with(kArm, "grounded\n", "half-spaces\n  loop_rate_Hz: 2000\n  loop_delay_s: 0.001\n");
+  const GloveModel model = parse_glove_model(text, "arm.yaml");
+  const DeviceDescriptor descriptor = descriptor_of(model);
+  EXPECT_EQ(descriptor.tool_command, ToolCommand::kHalfSpaces);
+  EXPECT_EQ(descriptor.tool_rate, 2000.0);
+  EXPECT_EQ(descriptor.tool_delay, milliseconds(1));
+  GloveCommand command;
+  command.half_spaces.count = 1;
+  command.half_spaces.rows[0] = {Vector3d::UnitZ(), Vector3d::Zero(), 10e-3};
+  command.half_spaces.stiffness = SimulatedGloveParameters().wearer_stiffness;
+  command.half_spaces.rotational_stiffness = 1.0;
+  command.half_spaces.max_force = 12.0;
+  const SafeCommand safe = test_support::safe_command(command, descriptor);
+  SimulatedGlove glove(at_rest(), {}, model);
+  for (int i = 0; i < 3000; ++i)
+    glove.step(milliseconds(1), safe);
+  EXPECT_NEAR(glove.state().X_WH.translation().z(), 5e-3, 1e-6);
 }
 
 TEST(GloveModel, MeasuresAtItsRateAndDelaysTheStates) {

@@ -263,6 +263,35 @@ TEST_F(LimitsInEnvelope, ExpireAfterThreePeriodsOfASlowDevice) {
   EXPECT_NEAR(std::chrono::duration<double>(safe_.values().joint_limits.expiry).count(), 0.05, 1e-6);
 }
 
+// A joint without an actuator would use up the energy of those that have one.
+TEST_F(LimitsInEnvelope, JointWithoutAnActuatorGetsNone) {
+  constexpr std::size_t kMiddleMcp = 7;
+  device_.undriven_joints.set(kMiddleMcp);
+  envelope_ = SafetyEnvelope(device_);
+  state_.joint_angles[kMiddleMcp] = 1.2;
+  state_.joint_angles[kIndexMcp] = 0.55;
+  GloveCommand command;
+  command.joint_limits.joints[kMiddleMcp] = command.joint_limits.joints[kIndexMcp] = kAtHalf;
+  command.joint_torques[kMiddleMcp] = command.joint_torques[kIndexMcp] = 0.1;
+  for (int i = 0; i < 300; ++i) {
+    now_ += milliseconds(1);
+    ++state_.sequence;
+    state_.time = command.state_time = now_;
+    safe_ = envelope_.limit(command, state_, now_);
+    EXPECT_FALSE(safe_.reasons().energy_limited) << i;
+  }
+  EXPECT_EQ(safe_.values().joint_limits.joints[kMiddleMcp], JointLimit{});
+  EXPECT_EQ(safe_.values().joint_limits.joints[kIndexMcp], kAtHalf);
+  EXPECT_EQ(safe_.values().joint_torques[kMiddleMcp], 0.0);
+  EXPECT_EQ(safe_.values().joint_torques[kIndexMcp], 0.1);
+}
+
+TEST_F(LimitsInEnvelope, DampingIsWhatThePassiveStiffnessLeaves) {
+  JointLimit damped = kAtHalf;
+  damped.damping = 1.0;
+  EXPECT_NEAR(hold(damped, 300).damping, 0.02 - 2.0 * (0.5 / 500.0 + 1e-3), 1e-12);
+}
+
 TEST_F(LimitsInEnvelope, DeviceOfTorquesGetsNone) {
   envelope_ = SafetyEnvelope(simulated_glove_descriptor());
   EXPECT_EQ(hold(kAtHalf, 300), JointLimit{});

@@ -1,5 +1,6 @@
 /// Checks of a hand's configuration, and what the hand announces.
 
+#include <algorithm>
 #include <limits>
 #include <numbers>
 #include <stdexcept>
@@ -40,6 +41,13 @@ TEST(DynamixelHand, DogloveIsValid) {
   for (std::size_t i = 0; i < device.joint_upper.size(); ++i)
     joints += device.joint_upper[i] > device.joint_lower[i] ? 1 : 0;
   EXPECT_EQ(joints, 14) << "the flexion joints";
+  const DynamixelHand hand = doglove();
+  for (std::size_t i = 0; i < device.joint_upper.size(); ++i) {
+    const bool has_servo = std::any_of(hand.servos.begin(), hand.servos.end(), [i](const DynamixelServo& servo) {
+      return static_cast<std::size_t>(servo.joint) == i;
+    });
+    EXPECT_EQ(device.drives(i), has_servo) << i;
+  }
 }
 
 TEST(DynamixelHand, LimitsFollowFromTheDataSheet) {

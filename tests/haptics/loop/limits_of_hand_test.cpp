@@ -8,6 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <glissade/devices/simulated_glove.h>
+#include <glissade/haptics/coupling.h>
+
+#include "loop/fingers_of_hand.h"
 
 namespace glissade::haptics {
 namespace {
@@ -43,15 +46,24 @@ HandAnswer contact_below(double inner_arm, double outer_arm, double gap) {
   return hand;
 }
 
-JointLimits limits_at(const HandAnswer& answer, milliseconds age = milliseconds(0)) {
-  return limits_of_hand(kBentFinger, kServoGlove, answer, age);
+JointLimits limits_at(const HandAnswer& answer, double share = 1.0) {
+  return limits_of_hand(kBentFinger, kServoGlove, answer, share);
 }
 
 TEST(LimitsOfHand, AreTheVisibleJointsAtAContact) {
   const JointLimits limits = limits_at(contact_below(0.08, 0.03, 0.0));
-  EXPECT_EQ(limits.joints[0], (JointLimit{.upper = 0.2, .stiffness = 5.0, .max_torque = 0.5}));
-  EXPECT_EQ(limits.joints[1], (JointLimit{.upper = 0.3, .stiffness = 5.0, .max_torque = 0.5}));
+  const double damping = 0.02 - 5.0 * 0.5e-3;  // what the stiffness leaves of the joint damping at half a period
+  EXPECT_EQ(limits.joints[0], (JointLimit{.upper = 0.2, .stiffness = 5.0, .damping = damping, .max_torque = 0.5}));
+  EXPECT_EQ(limits.joints[1], (JointLimit{.upper = 0.3, .stiffness = 5.0, .damping = damping, .max_torque = 0.5}));
   EXPECT_EQ(limits.joints[2], JointLimit{}) << "the contact does not concern this joint";
+}
+
+TEST(LimitsOfHand, AreForJointsWithAnActuatorOnly) {
+  devices::DeviceDescriptor glove = kServoGlove;
+  glove.undriven_joints.set(1);
+  const JointLimits limits = limits_of_hand(kBentFinger, glove, contact_below(0.08, 0.03, 0.0), 1.0);
+  EXPECT_EQ(limits.joints[0].upper, 0.2);
+  EXPECT_EQ(limits.joints[1], JointLimit{});
 }
 
 TEST(LimitsOfHand, AreAheadOfAnApproachingFinger) {
@@ -82,19 +94,33 @@ TEST(LimitsOfHand, BeyondTheJointsRangeThereIsNothingToLimit) {
   EXPECT_EQ(limits_at(contact_below(0.01, 0.03, 9e-3)).joints[0], JointLimit{}) << "0.9 rad away";
 }
 
-TEST(LimitsOfHand, FadeWithTheAgeOfTheAnswer) {
+TEST(LimitsOfHand, HaveTheirShareOfTheLargestTorque) {
   const HandAnswer touching = contact_below(0.08, 0.03, 0.0);
-  EXPECT_EQ(limits_at(touching, kFullForce).joints[0].max_torque, 0.5);
-  const double faded = limits_at(touching, milliseconds(60)).joints[0].max_torque;
-  EXPECT_GT(faded, 0.0);
-  EXPECT_LT(faded, 0.5);
-  EXPECT_EQ(limits_at(touching, kForceless).joints[0].max_torque, 0.0);
+  EXPECT_EQ(limits_at(touching, 0.3).joints[0].max_torque, 0.3 * 0.5);
+  EXPECT_FALSE(limits_at(touching, 0.0).any());
+}
+
+// So that a finger which went into the object in the meantime is not hit.
+TEST(LimitsOfHand, FadeWithTheAgeOfTheAnswerAndReturnSoftly) {
+  FingersOfHand fingers(kBentFinger, kServoGlove, kTickPeriod);
+  const HandAnswer touching = contact_below(0.08, 0.03, 0.0);
+  const auto torque_after = [&](milliseconds age) { return fingers.limits(touching, age, 1e-3).joints[0].max_torque; };
+  EXPECT_EQ(torque_after(kFullForce), 0.5);
+  EXPECT_NEAR(torque_after(milliseconds(60)), 0.25, 1e-12) << "halfway between 20 and 100 ms";
+  EXPECT_EQ(torque_after(kForceless), 0.0);
+  double last = 0.0;
+  for (int ms = 1; ms <= 200; ++ms) {
+    const double torque = torque_after(milliseconds(0));
+    EXPECT_NEAR(torque, last + 0.5 / 200.0, 1e-12);
+    last = torque;
+  }
+  EXPECT_NEAR(last, 0.5, 1e-9);
 }
 
 TEST(LimitsOfHand, AbsentJointsGetNone) {
   devices::DeviceDescriptor few = kServoGlove;
   few.joint_lower[0] = few.joint_upper[0] = 0.0;
-  EXPECT_EQ(limits_of_hand(kBentFinger, few, contact_below(0.08, 0.03, 0.0), milliseconds(0)).joints[0], JointLimit{});
+  EXPECT_EQ(limits_of_hand(kBentFinger, few, contact_below(0.08, 0.03, 0.0), 1.0).joints[0], JointLimit{});
 }
 
 }  // namespace

@@ -1,0 +1,58 @@
+/// The whole loop with an arm behind a slow link: 60 states and commands a second, 20 ms on the way there and back. The
+/// arm holds the half-spaces of the box that its hand presses on a plate.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "rubbed_box.h"
+
+namespace glissade::haptics {
+namespace {
+
+using std::chrono::milliseconds;
+
+devices::GloveModel behind_slow_link(devices::GloveModel arm) {
+  arm.update_rate = 60.0;
+  arm.link.delay = 10e-3;
+  arm.wrist.loop_delay = 1e-3;
+  return arm;
+}
+
+TEST(HeldHalfSpacesInTheLoop, HandRestsWhereTheSpringsBalance) {
+  RubbedBox box(behind_slow_link(holding_arm()), 0.0);
+  DisturbedLoop loop(box, {});
+  double least = 1.0;
+  double greatest = -1.0;
+  double stiffness = 0.0;
+  loop.run(
+      milliseconds(5000), [](auto, const auto&, const auto&) {},
+      [&](std::chrono::nanoseconds now, const devices::GloveCommand& command, const devices::GloveState&) {
+        if (now < milliseconds(2000)) return;
+        const double z = box.glove().true_state().X_WH.translation().z();
+        least = std::min(least, z);
+        greatest = std::max(greatest, z);
+        stiffness = command.half_spaces.stiffness;
+      });
+  EXPECT_LT(greatest - least, 20e-6) << "no limit cycle while the hand rubs to and fro";
+  EXPECT_NEAR(stiffness, 1000.0, 1e-6) << "all that is wanted; a wrench over this link is passive up to 71 N/m";
+  const double wearer = devices::SimulatedGloveParameters().wearer_stiffness;
+  const double depth = wearer / (wearer + stiffness) * RubbedBox::kAim;
+  EXPECT_NEAR(0.5 * RubbedBox::kEdge - least, depth, 0.01 * depth);
+}
+
+// What a wrench would be over the same link.
+TEST(HeldHalfSpacesInTheLoop, StiffnessIsThatOfTheOwnLoop) {
+  devices::GloveModel arm = behind_slow_link(holding_arm());
+  const contact::CouplingStiffness held = passive_stiffness(devices::descriptor_of(arm), kTickPeriod, milliseconds(20));
+  arm.wrist.holds_half_spaces = false;
+  const contact::CouplingStiffness forced =
+      passive_stiffness(devices::descriptor_of(arm), kTickPeriod, milliseconds(20));
+  EXPECT_NEAR(held.translational, 2.0 / 1.5e-3, 1e-6);
+  EXPECT_NEAR(forced.translational, 2.0 / (0.5 / 60.0 + 20e-3), 1e-6);
+}
+
+}  // namespace
+}  // namespace glissade::haptics
