@@ -42,8 +42,10 @@ inline bool is_finite(const JointLimits& limits) noexcept {
          });
 }
 
+/// Half-spaces without rows are none, whatever the rest says.
 inline bool is_finite(const HalfSpaces& half_spaces) noexcept {
-  return is_finite(half_spaces.expiry) && half_spaces.X_WB.matrix().allFinite() && half_spaces.p_HR.allFinite() &&
+  if (half_spaces.count == 0) return true;
+  return half_spaces.X_WB.matrix().allFinite() && half_spaces.p_HR.allFinite() &&
          std::isfinite(half_spaces.stiffness) && std::isfinite(half_spaces.rotational_stiffness) &&
          std::isfinite(half_spaces.damping) && std::isfinite(half_spaces.max_force) &&
          std::isfinite(half_spaces.max_torque) &&

@@ -166,7 +166,7 @@ TEST(LeastDistance, IsThatOfAllSubsetsOfRows) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal;
   int solved = 0;
-  for (int scene = 0; scene < 2'000; ++scene) {
+  for (int scene = 0; scene < 300; ++scene) {
     Inequalities inequalities;
     const auto count = static_cast<Eigen::Index>(1 + scene % static_cast<int>(kMaxHalfSpaces));
     inequalities.G.resize(count, 6);
@@ -188,7 +188,7 @@ TEST(LeastDistance, IsThatOfAllSubsetsOfRows) {
     ASSERT_LE((*found - *expected).norm(), 1e-8 * std::max(1e-3, expected->norm())) << scene;
     ++solved;
   }
-  EXPECT_GT(solved, 1'900);
+  EXPECT_GT(solved, 280);
 }
 
 TEST(LeastDistance, DoesNotAllocate) {

@@ -57,6 +57,12 @@ class FeltLimits {
  public:
   explicit FeltLimits(Takes takes) : takes_(takes) {}
 
+  /// From then on, and until then, what acts may not tighten.
+  void expect_no_tightening(nanoseconds from, nanoseconds until) {
+    old_from_ = from;
+    old_until_ = until;
+  }
+
   void see(nanoseconds now, const devices::GloveCommand& command, const devices::GloveState& state) {
     static const devices::DeviceDescriptor kDevice = devices::simulated_glove_descriptor();
     const double max_torque = takes_ == Takes::kJointLimits ? kDevice.max_joint_torque : kDevice.max_torque;
@@ -79,6 +85,10 @@ class FeltLimits {
     greatest_Nm = std::max(greatest_Nm, felt.t.norm());
     greatest_change_N = std::max(greatest_change_N, change_f);
     greatest_change_Nm = std::max(greatest_change_Nm, change_t);
+    if (now > old_from_ && now <= old_until_) {
+      EXPECT_LE(felt.f.norm(), before.f.norm() + 1e-9) << "tightens on an old set at " << now.count() << " ns";
+      EXPECT_LE(felt.t.norm(), before.t.norm() + 1e-9) << "tightens on an old set at " << now.count() << " ns";
+    }
     last_ = command;
     last_time_ = now;
   }
@@ -92,6 +102,8 @@ class FeltLimits {
   Takes takes_;
   devices::GloveCommand last_;
   nanoseconds last_time_{0};
+  nanoseconds old_from_{0};
+  nanoseconds old_until_{0};
 };
 
 const DisturbedLoop::See kUnseen = [](nanoseconds, const devices::GloveCommand&, const devices::GloveState&) {};
@@ -119,6 +131,8 @@ struct Outcome {
 /// A run with a failure from kBegin to `end`.
 Outcome disturbed_run(Takes takes, const Failure& failure, nanoseconds end) {
   Outcome outcome{.hand = FeltLimits(takes)};
+  // A wrench follows the hand on an old set, too.
+  if (failure.holds_simulation && takes != Takes::kWrench) outcome.hand.expect_no_tightening(kBegin + kFullForce, end);
   FeltLimits server(takes);
   const std::unique_ptr<DisturbedWorld> world = world_of(takes);
   DisturbedLoop loop(*world, failure);
