@@ -16,7 +16,7 @@ DecodeResult check(const hand_pose_t& message) noexcept {
   fields.between("has_velocity", message.has_velocity, 0, 1);
   if (message.valid == 0) return fields.result();
   fields.magnitude("position_WT_m", message.position_WT_m, kLargestPosition);
-  fields.unit_quaternion("orientation_WT_wxyz", message.orientation_WT_wxyz);
+  fields.unit_vector("orientation_WT_wxyz", message.orientation_WT_wxyz);
   if (message.has_velocity == 0) return fields.result();
   fields.magnitude("v_WT_m_per_s", message.v_WT_m_per_s, kLargestVelocity);
   fields.magnitude("w_WT_rad_per_s", message.w_WT_rad_per_s, kLargestAngularVelocity);
