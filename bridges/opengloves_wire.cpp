@@ -35,6 +35,8 @@ OpenGlovesOptions checked(OpenGlovesOptions options) {
   return options;
 }
 
+constexpr int kReleaseLines = 3;
+
 /// The first line break ends a line that was cut. Twice, because a line may be lost.
 std::string release_lines(OpenGlovesEncoding encoding) {
   const std::string line = limit_line(encoding, FingerNumbers{});
@@ -92,16 +94,18 @@ void OpenGlovesWire::open() {
   glove_->traffic = {};
   glove_->traffic.is_free = is_free;
   glove_->extra_lines = 0;
-  if (glove_->last_encoding) glove_->stream.write(release_lines(*glove_->last_encoding));
+  if (glove_->last_encoding) {
+    glove_->stream.write(release_lines(*glove_->last_encoding));
+    glove_->extra_lines = kReleaseLines;
+  }
   glove_->last_state = glove_->clock.now();
 }
 
 bool OpenGlovesWire::read(devices::GloveState& state) {
   const nanoseconds end = glove_->clock.now() + glove_->period;
   std::optional<GloveLine> newest;
-  for (nanoseconds now = glove_->clock.now(); !newest && now < end; now = glove_->clock.now()) {
+  for (nanoseconds now = glove_->clock.now(); !newest && now < end; now = glove_->clock.now())
     newest = glove_->decoder.take(glove_->stream.read(end - now));
-  }
   glove_->traffic.refused = glove_->decoder.refused();
   if (newest) glove_->take(*newest, state);
   if (!newest && glove_->clock.now() - glove_->last_state > kSilence) glove_->say_silence();

@@ -250,6 +250,8 @@ TEST(OpenGlovesWire, ComesBackEachTimeTheGloveIsPluggedInAgain) {
   EXPECT_GT(glove.state().limits[1], 450) << "the firmware keeps the limit while nobody is there";
   wire.open();
   EXPECT_TRUE(turns_until(wire, state, {}, [&] { return glove.state().limits[1] == 0; }));
+  EXPECT_TRUE(turns_until(wire, state, {}, [&] { return wire.traffic().states > 20; }));
+  EXPECT_LE(glove.state().waiting_lines, 1) << "the lines of the release do not delay those that follow";
 }
 
 TEST(OpenGlovesWire, WorksOverTcp) {
