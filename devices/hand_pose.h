@@ -80,7 +80,8 @@ class HandPoseSource {
   realtime::SteadyClock clock_;
   std::unique_ptr<LinkMonitor> monitor_;
   std::unique_ptr<ClockDifference> difference_;
-  std::optional<TrackedPose> last_;  ///< of the receive thread, with the time of this process
+  std::optional<TrackedPose> last_;        ///< of the receive thread, with the time of this process
+  std::chrono::nanoseconds last_sent_{0};  ///< its time on the sender's clock
   std::atomic<std::chrono::nanoseconds> newest_;
   realtime::TripleBuffer<TrackedPose> poses_;
   bool has_pose_ = false;  ///< of the thread of `join`

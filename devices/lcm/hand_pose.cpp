@@ -30,9 +30,10 @@ nanoseconds patience_of(const HandPoseOptions& options) {
   return nanoseconds(std::llround(kLatePeriods * 1e9 / options.rate_Hz));
 }
 
-/// From the last two poses. Zero after a pause, in which the hand may have gone any way.
-void find_velocity(const TrackedPose& before, TrackedPose& pose) noexcept {
-  const double dt = seconds_of(pose.time - before.time);
+/// From the last two poses, with a time between them on the sender's clock. Zero after a pause, in which the hand may
+/// have gone any way.
+void find_velocity(const TrackedPose& before, nanoseconds time_between, TrackedPose& pose) noexcept {
+  const double dt = seconds_of(time_between);
   if (!(dt > 0.0 && dt <= kLongestStep_s)) return;
   pose.v_WT = (pose.X_WT.translation() - before.X_WT.translation()) / dt;
   const Eigen::AngleAxisd turn(pose.X_WT.linear() * before.X_WT.linear().transpose());
@@ -68,11 +69,13 @@ HandPoseSource::~HandPoseSource() = default;
 
 void HandPoseSource::take(TrackedPose pose, nanoseconds now) noexcept {
   if (!pose.is_valid) return;
-  difference_->observe(pose.time, now);
+  const nanoseconds sent = pose.time;
+  difference_->observe(sent, now);
   pose.time += difference_->value();
   if (last_) pose.time = std::max(pose.time, last_->time);  // a faster message makes the earlier ones older, not newer
-  if (last_ && !pose.has_velocity) find_velocity(*last_, pose);
+  if (last_ && !pose.has_velocity) find_velocity(*last_, sent - last_sent_, pose);
   last_ = pose;
+  last_sent_ = sent;
   newest_.store(pose.time, std::memory_order_relaxed);
   poses_.publish(pose);
 }
