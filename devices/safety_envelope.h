@@ -89,6 +89,8 @@ std::string to_text(const SafeCommand& command);
 ///
 /// Limits that the device holds by itself (`JointLimits`) tighten no faster than torques rise. When they move against a
 /// finger, their springs gain no more energy than 20 mJ and what other limits have given up, plus 5 mW (0.2 W at rest).
+/// Half-spaces (`HalfSpaces`) change no faster than force and torque do. What their springs gain when they move against
+/// the hand, they take from the available energy.
 ///
 /// Force, torques and limits fade within seven periods and return within 200 ms. Both take longer if the rate in the
 /// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring
