@@ -36,7 +36,8 @@ void SimulatedGloveService::stop() {
 /// Returns false when nothing is left to do.
 bool SimulatedGloveService::tick(std::chrono::nanoseconds deadline) noexcept {
   const SafeCommand command = host_.newest_command(state_);
-  greatest_force_ = std::max(greatest_force_, command.values().f_H_W.norm());
+  const HandWrench held = half_space_wrench(command.values().half_spaces, state_.X_WH);
+  greatest_force_ = std::max(greatest_force_, (command.values().f_H_W + held.f_H_W).norm());
   // More than a period where deadlines were skipped.
   const std::chrono::nanoseconds passed = last_deadline_ ? deadline - *last_deadline_ : std::chrono::nanoseconds(0);
   last_deadline_ = deadline;

@@ -108,7 +108,9 @@ class GloveRecord {
     const auto seconds = [](std::chrono::nanoseconds time) { return std::chrono::duration<double>(time).count(); };
     const devices::SafeCommand& command = period.command;
     csv_.add(seconds(period.state.time)).add(period.state.X_WH);
-    csv_.add(command.values().f_H_W).add(command.values().t_H_W);
+    const devices::HandWrench held = half_space_wrench(command.values().half_spaces, period.state.X_WH);
+    csv_.add(Eigen::Vector3d(command.values().f_H_W + held.f_H_W));
+    csv_.add(Eigen::Vector3d(command.values().t_H_W + held.t_H_W));
     if (command.values().sequence > 0) {
       csv_.add(seconds(command.age())).add(to_text(command));
     } else {
