@@ -42,14 +42,15 @@ double seconds_to_zero(const Eigen::Vector3d& vector, double rate) noexcept {
 }  // namespace
 
 void NormLimit::limit(Forces& forces, LimitReasons& reasons) const noexcept {
-  reasons.force_limited = limit_norm(forces.f, descriptor_.max_force);
-  reasons.torque_limited = limit_norm(forces.t, descriptor_.max_torque);
+  // What a device does not exert at all is not at a limit.
+  reasons.force_limited = limit_norm(forces.f, descriptor_.max_force) && descriptor_.max_force > 0.0;
+  reasons.torque_limited = limit_norm(forces.t, descriptor_.max_torque) && descriptor_.max_torque > 0.0;
   for (std::size_t j = 0; j < hands::kJoints; ++j) {
     const double joint_limit = descriptor_.undriven_joints[j] ? 0.0 : descriptor_.max_joint_torque;
     double& torque = forces.joints[j];
     if (std::abs(torque) <= joint_limit) continue;
     torque = std::copysign(joint_limit, torque);
-    reasons.joints_limited = true;
+    reasons.joints_limited = joint_limit > 0.0;
   }
   reasons.mean_limited = limit_norm(forces.f, largest_force());
 }

@@ -43,7 +43,7 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
     const bool is_for_us = header.device == options_.device && header.glove_session == session_;
     if (result == MessageError::kNone && !is_for_us) result = MessageError::kOtherReceiver;
     if (monitor_->admit(result, {header.device, header.session, command.sequence}, clock_.now())) {
-      commands_.publish(command);
+      commands_.publish({command, header.session});
     }
   });
   announcements_ = bus_->subscribe(kGloveInfoChannel, [this](std::span<const std::uint8_t> message) {
@@ -78,11 +78,13 @@ bool LcmGloveHost::publish(const GloveState& state) {
   }
   const StateHeader header{
       .device = options_.device, .session = session_, .leaseholder = monitor_->leaseholder(now), .side = options_.side};
-  told.limits = last_.reasons();
-  told.command_age = last_.age();
+  // What became of the command of another server, or of none, does not concern this server.
+  const SafeCommand& concerned = header.leaseholder == last_session_ ? last_ : SafeCommand{};
+  told.limits = concerned.reasons();
+  told.command_age = concerned.age();
   told.link_delay = envelope_.link_delay();
-  told.energy = last_.energy();
-  told.taken = last_.taken();
+  told.energy = concerned.energy();
+  told.taken = concerned.taken();
   return bus_->publish(kGloveStateChannel, encode(header, told));
 }
 
@@ -91,7 +93,9 @@ SafeCommand LcmGloveHost::newest_command(const GloveState& newest) noexcept {
   GloveState measured = newest;
   if (!prepare(measured)) return {};
   measured.link_delay = std::chrono::nanoseconds(0);  // here is the envelope that limits the energy
-  last_ = envelope_.limit(commands_.latest(), measured, clock_.now());
+  const Heard& heard = commands_.latest();
+  last_ = envelope_.limit(heard.command, measured, clock_.now());
+  last_session_ = heard.session;
   return options_.calibration ? last_.for_device(*options_.calibration) : last_;
 }
 

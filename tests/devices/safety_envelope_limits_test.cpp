@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "envelope_fixture.h"
+#include "safe_command.h"
 
 namespace glissade::devices {
 namespace {
@@ -71,6 +72,19 @@ TEST_F(Envelope, ScalesDownToTheLimitsAndSaysWhich) {
   EXPECT_FALSE(safe.reasons().force_limited);
   EXPECT_EQ(safe.values().t_H_W, Vector3d(0, 1, 0));
   EXPECT_EQ(safe.values().joint_torques[3], -0.5);
+}
+
+// It would otherwise be at its limit at each contact.
+TEST(EnvelopeOfATracker, WhatADeviceDoesNotExertIsNoLimit) {
+  DeviceDescriptor tracker = simulated_glove_descriptor();
+  tracker.max_force = tracker.max_torque = tracker.max_joint_torque = 0.0;
+  GloveCommand wanted;
+  wanted.f_H_W = Vector3d(1, 2, 3);
+  wanted.t_H_W = Vector3d(0.1, 0.2, 0.3);
+  wanted.joint_torques[3] = -0.6;
+  const SafeCommand safe = test_support::safe_command(wanted, tracker);
+  EXPECT_TRUE(safe.values().is_at_rest());
+  EXPECT_FALSE(safe.reasons().any());
 }
 
 TEST_F(Envelope, TurnsAForceNoFasterThanItsRate) {
