@@ -38,7 +38,7 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
                                       .fifo_share = realtime::kLinkShare,
                                       .name = "lcm-send"},
       [this](const realtime::PeriodicTick&) {
-        if (commands_.update()) send(commands_.value().values());
+        commands_.pop_waiting([this](const SafeCommand& command) { send(command.values()); });
         return true;
       });
 }
@@ -46,11 +46,10 @@ LcmGlove::LcmGlove(std::shared_ptr<LcmBus> bus, DeviceDescriptor descriptor, con
 LcmGlove::~LcmGlove() {
   sender_->stop();
   if (commands_sent() > 0) {
-    const GloveCommand& last = commands_.value().values();
     GloveCommand rest;
-    rest.sequence = last.sequence + 1;
-    rest.state_sequence = last.state_sequence;
-    rest.state_time = last.state_time;
+    rest.sequence = last_sent_.sequence + 1;
+    rest.state_sequence = last_sent_.state_sequence;
+    rest.state_time = last_sent_.state_time;
     rest.time = clock_.now();
     send(rest);
   }
@@ -64,13 +63,14 @@ bool LcmGlove::read(GloveState& newest) noexcept {
 }
 
 void LcmGlove::command(const SafeCommand& command) noexcept {
-  commands_.publish(command);
+  commands_.push(command);
 }
 
 // A command that cannot be encoded or sent counts as lost on the way: the glove's envelope covers both.
 void LcmGlove::send(const GloveCommand& command) noexcept {
   try {
     const CommandHeader header{.device = device_, .glove_session = monitor_->session(), .session = session_};
+    last_sent_ = command;
     if (bus_->publish(kGloveCommandChannel, encode(header, command))) {
       commands_sent_.fetch_add(1, std::memory_order_relaxed);
     }

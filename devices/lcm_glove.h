@@ -26,6 +26,7 @@
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_thread.h>
+#include <glissade/realtime/spsc_ring.h>
 #include <glissade/realtime/triple_buffer.h>
 
 namespace glissade::devices {
@@ -73,7 +74,7 @@ struct LcmGloveOptions {
 };
 
 /// The haptic loop's end of the link. It receives states on the channel GLOVE_STATE in the receive thread of the bus,
-/// and sends commands on GLOVE_COMMAND in a separate thread. If any command was sent, the destructor sends a last
+/// and sends every command on GLOVE_COMMAND in a separate thread. If any command was sent, the destructor sends a last
 /// command with zero forces and torques.
 class LcmGlove final : public GloveDevice {
  public:
@@ -90,6 +91,11 @@ class LcmGlove final : public GloveDevice {
   LinkStatistics statistics() const noexcept;
   /// Commands sent so far. Any thread.
   std::uint64_t commands_sent() const noexcept { return commands_sent_.load(std::memory_order_relaxed); }
+  /// Commands dropped so far because the send thread was stopped for longer than `kWaitingCommands` ticks. Any thread.
+  std::uint64_t commands_dropped() const noexcept { return commands_.dropped(); }
+
+  /// Commands that may wait for the send thread.
+  static constexpr std::size_t kWaitingCommands = 64;
 
  private:
   void send(const GloveCommand& command) noexcept;
@@ -101,7 +107,8 @@ class LcmGlove final : public GloveDevice {
   realtime::SteadyClock clock_;
   realtime::TripleBuffer<GloveState> states_;
   bool has_state_ = false;  ///< used by the haptic thread only
-  realtime::TripleBuffer<SafeCommand> commands_;
+  realtime::SpscRing<SafeCommand> commands_{kWaitingCommands};
+  GloveCommand last_sent_;  ///< used by the send thread, and then by the destructor
   std::atomic<std::uint64_t> commands_sent_{0};
   std::unique_ptr<LinkMonitor> monitor_;
   std::unique_ptr<LcmBus::Subscription> subscription_;
@@ -133,9 +140,9 @@ class LcmGloveHost {
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();
 
-  /// Sends `state` together with the envelope's results of the last `newest_command`. Also sends the announcement when
-  /// it is due. Returns false when the operating system does not accept the state. Before the first pose of a tracker,
-  /// sends nothing and returns false. May block.
+  /// Sends `state` together with the envelope's results of the last `newest_command`, if the present server sent this
+  /// command. Also sends the announcement when it is due. Returns false when the operating system does not accept the
+  /// state. Before the first pose of a tracker, sends nothing and returns false. May block.
   bool publish(const GloveState& state);
 
   /// The command for the device in this period. Call this function once a period. `newest` is the newest measured
@@ -155,6 +162,11 @@ class LcmGloveHost {
   const HandPoseSource* hand_pose() const noexcept { return hand_pose_.get(); }
 
  private:
+  struct Heard {
+    GloveCommand command;
+    std::int64_t session = 0;  // of the server
+  };
+
   bool prepare(GloveState& measured) noexcept;
 
   std::shared_ptr<LcmBus> bus_;
@@ -163,9 +175,10 @@ class LcmGloveHost {
   std::int64_t session_;
   SafetyEnvelope envelope_;
   SafeCommand last_;
+  std::int64_t last_session_ = 0;  // of the server that sent the command of `last_`
   std::atomic<bool> should_stop_{false};
   realtime::SteadyClock clock_;
-  realtime::TripleBuffer<GloveCommand> commands_;
+  realtime::TripleBuffer<Heard> commands_;
   std::optional<std::chrono::nanoseconds> announced_;
   std::unique_ptr<LinkMonitor> monitor_;
   std::atomic<bool> shares_number_{false};

@@ -12,9 +12,11 @@ namespace glissade::devices {
 
 /// Where an address of the provider udpm sends to and receives from.
 struct UdpmAddress {
-  sockaddr_in group{};             ///< multicast address and port
-  int ttl = 0;                     ///< 0: messages stay on this machine
-  std::optional<int> buffer_size;  ///< bytes of the receive buffer; without value, the system's default
+  sockaddr_in group{};  ///< multicast address and port
+  int ttl = 0;          ///< 0: messages stay on this machine
+  /// Bytes of the receive buffer, of which the system grants at most `net.core.rmem_max`. The default holds a fifth of
+  /// a second of the messages of four gloves and their server.
+  int buffer_size = 4 << 20;
 };
 
 /// The address that `url` names; none for `memq://`. Allowed are `memq://` and `udpm://ADDRESS:PORT`, the latter with

@@ -70,7 +70,7 @@ UdpmSocket::UdpmSocket(const UdpmAddress& address) : fd_(-1) {
 
   Socket result(SOCK_NONBLOCK);
   result.set(SOL_SOCKET, SO_REUSEADDR, 1);  // other programs on this machine listen to the same group
-  if (address.buffer_size) result.set(SOL_SOCKET, SO_RCVBUF, *address.buffer_size);
+  result.set(SOL_SOCKET, SO_RCVBUF, address.buffer_size);
   // Bound to the group, the socket takes no datagram to another address. Without IP_MULTICAST_ALL, it takes none that
   // arrives by another interface than the one by which it has joined; the system chooses this one by its routes.
   result.set(IPPROTO_IP, IP_MULTICAST_ALL, 0);

@@ -191,6 +191,45 @@ TEST_F(BothEnds, GlovesWithDifferentNumbersAreIndependent) {
   EXPECT_GT(left.statistics().other_receiver, 0U);
 }
 
+// A send thread that comes late sends what has waited.
+TEST_F(BothEnds, EveryCommandIsSentInItsOrder) {
+  ASSERT_TRUE(eventually([&] { return period().values().sequence > 0; }));
+  const std::uint64_t accepted = host.statistics().accepted;
+  constexpr std::uint64_t kAtOnce = 50;
+  server_answers = false;
+  for (std::uint64_t i = 0; i < kAtOnce; ++i) {
+    wanted.sequence = ++sequence;
+    glove.command(test_support::limited(envelope, wanted, seen));
+  }
+  EXPECT_TRUE(eventually([&] { return host.statistics().accepted >= accepted + kAtOnce; }));
+  EXPECT_EQ(host.statistics().lost, 0U);
+  EXPECT_EQ(glove.commands_dropped(), 0U);
+}
+
+// Before the first command is limited, its server is told nothing: that no command has come would look like an old one.
+TEST_F(BothEnds, TheGloveTellsAServerOnlyOfItsOwnCommands) {
+  const auto publish = [&] {
+    state.time = clock.now();
+    ++state.sequence;
+    host.publish(state);
+  };
+  host.newest_command(state);  // of no server
+  ASSERT_TRUE(eventually([&] {
+    publish();
+    return glove.read(seen);
+  }));
+  glove.command(test_support::limited(envelope, wanted, seen));
+  ASSERT_TRUE(eventually([&] { return host.statistics().accepted > 0; }));
+  publish();
+  ASSERT_TRUE(eventually([&] { return glove.read(seen) && seen.sequence == state.sequence; }));
+  EXPECT_FALSE(seen.limits.any());
+  EXPECT_EQ(seen.command_age, nanoseconds(0));
+  host.newest_command(state);
+  publish();
+  ASSERT_TRUE(eventually([&] { return glove.read(seen) && seen.sequence == state.sequence; }));
+  EXPECT_GT(seen.command_age, nanoseconds(0));
+}
+
 // The whole loop: a simulated glove is pushed off by a server that answers every state.
 TEST_F(BothEnds, ASimulatedGloveYieldsToTheServer) {
   wanted.f_H_W = Vector3d(4, 0, 0);
