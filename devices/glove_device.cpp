@@ -119,7 +119,11 @@ double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept {
   if (descriptor.finger_command == FingerCommand::kTorque) return 0.0;
   const double lag = lag_of_own_loop(descriptor, descriptor.limit_rate, descriptor.limit_delay);
   double stiffness = descriptor.max_limit_stiffness;
-  if (descriptor.joint_damping > 0.0) stiffness = std::min(stiffness, descriptor.joint_damping / lag);
+  if (descriptor.finger_command == FingerCommand::kBrake) return stiffness;
+  // A finger at this rate loses to dry friction as much as to so much damping.
+  constexpr double kHeld_rad_per_s = 0.5;
+  const double damping = descriptor.joint_damping + descriptor.joint_friction / kHeld_rad_per_s;
+  if (descriptor.joint_damping > 0.0) stiffness = std::min(stiffness, damping / lag);
   const bool has_steps = descriptor.joint_friction > 0.0 && descriptor.joint_resolution > 0.0;
   if (has_steps) stiffness = std::min(stiffness, 2.0 * descriptor.joint_friction / descriptor.joint_resolution);
   return stiffness;

@@ -113,6 +113,12 @@ struct LinkModel {
   double loss = 0.0;    ///< share of lost messages, 0 to 1
 };
 
+/// Numbers of messages that the link of a model has lost, by chance or because a newer one overtook them.
+struct LinkLosses {
+  std::int64_t states = 0;
+  std::int64_t commands = 0;
+};
+
 /// A device. The device measures, and takes a command, `update_rate` times a second.
 struct GloveModel {
   std::string name;

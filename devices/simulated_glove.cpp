@@ -162,6 +162,7 @@ SimulatedGlove::SimulatedGlove(const SimulatedGlove& other)
       state_(other.state_),
       script_time_(other.script_time_),
       q_WH_(other.q_WH_),
+      felt_torques_(other.felt_torques_),
       modelled_(other.modelled_ ? std::make_unique<ModelledGlove>(*other.modelled_) : nullptr) {}
 
 SimulatedGlove::SimulatedGlove(SimulatedGlove&&) noexcept = default;
@@ -175,8 +176,13 @@ SimulatedGlove& SimulatedGlove::operator=(SimulatedGlove other) noexcept {
   state_ = other.state_;
   script_time_ = other.script_time_;
   q_WH_ = other.q_WH_;
+  felt_torques_ = other.felt_torques_;
   modelled_ = std::move(other.modelled_);
   return *this;
+}
+
+LinkLosses SimulatedGlove::link_losses() const noexcept {
+  return modelled_ ? modelled_->losses() : LinkLosses{};
 }
 
 GloveState SimulatedGlove::step(std::chrono::nanoseconds dt, const SafeCommand& newest, double pace) noexcept {
@@ -256,7 +262,8 @@ void SimulatedGlove::move_fingers(double h, double share, const hands::JointValu
   const double part = -std::expm1(-h / parameters_.finger_time_constant);
   const hands::JointValues aim = aim_of_fingers();
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
-    const double balance = aim[i] + share * torques[i] / parameters_.finger_stiffness;
+    felt_torques_[i] = share * torques[i];
+    const double balance = aim[i] + felt_torques_[i] / parameters_.finger_stiffness;
     double& angle = truth_.joint_angles[i];
     angle = std::clamp(angle + part * (balance - angle), descriptor_.joint_lower[i], descriptor_.joint_upper[i]);
   }
@@ -270,6 +277,7 @@ void SimulatedGlove::move_modelled_fingers(std::chrono::nanoseconds dt, std::chr
   FingerDynamics& fingers = *modelled_->fingers();
   fingers.advance(dt, aim_of_fingers(), grip_at(script_time_) % 2 == 1, order);
   truth_.joint_angles = fingers.angles();
+  felt_torques_ = fingers.loads();
 }
 
 }  // namespace glissade::devices

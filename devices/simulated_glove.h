@@ -70,6 +70,7 @@ struct SimulatedGloveParameters {
 DeviceDescriptor simulated_glove_descriptor();
 
 struct GloveModel;
+struct LinkLosses;
 class ModelledGlove;
 
 /// Integrates by semi-implicit Euler in steps of at most 1 ms. Fingers of a model, and arms that hold half-spaces, are
@@ -100,6 +101,12 @@ class SimulatedGlove {
 
   /// The true state of the hand, at the present time. Without a model, it is the measured state.
   const GloveState& true_state() const noexcept { return truth_; }
+
+  /// What the link of the model has lost so far.
+  LinkLosses link_losses() const noexcept;
+
+  /// The torques (Nm) that the device exerts on the finger joints, at the present time.
+  const hands::JointValues& felt_torques() const noexcept { return felt_torques_; }
 
   /// The time since the measurement of `state()`. 0 without a model.
   std::chrono::nanoseconds state_age() const noexcept { return truth_.time - state_.time; }
@@ -136,6 +143,7 @@ class SimulatedGlove {
   GloveState state_;
   std::chrono::nanoseconds script_time_;
   Eigen::Quaterniond q_WH_;
+  hands::JointValues felt_torques_{};
   std::unique_ptr<ModelledGlove> modelled_;  ///< null without a model
 };
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <utility>
 
+#include <glissade/devices/glove_model.h>
 #include <glissade/devices/simulated_glove_service.h>
 
 #include "lcm/wearers_view.h"
@@ -31,6 +32,10 @@ void SimulatedGloveService::stop() {
   host_.stop();
   should_end_.store(true, std::memory_order_release);
   thread_->join();
+}
+
+LinkLosses SimulatedGloveService::link_losses() const noexcept {
+  return glove_.link_losses();
 }
 
 /// Returns false when nothing is left to do.

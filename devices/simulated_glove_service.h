@@ -48,6 +48,8 @@ class SimulatedGloveService {
 
   /// Greatest norm of all commanded forces, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
+  /// What the link of the glove's model has lost. Valid after `stop`.
+  LinkLosses link_losses() const noexcept;
   /// Statistics of the messages from the server. Any thread.
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }
   /// Whether another glove sends under the same number. Any thread.

@@ -24,7 +24,7 @@ void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, 
     record.time = record.deadline = i * options.period;
     for (std::size_t h = 0; h < hands.size(); ++h) {
       record.states[h] = hands[h].device->step(options.period, record.tick.hands[h].command);
-      record.has_state[h] = true;
+      record.has_state[h] = record.states[h].sequence > 0;  // one that was measured
     }
     record.requests.clear();
     if (options.before_tick) options.before_tick(i, record.requests);

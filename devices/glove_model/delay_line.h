@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 namespace glissade::devices {
@@ -16,7 +17,10 @@ class DelayLine {
   explicit DelayLine(std::size_t capacity) : entries_(std::max<std::size_t>(capacity, 1)) {}
 
   void push(const Value& value, std::chrono::nanoseconds arrives) noexcept {
-    if (count_ == entries_.size()) drop(1);
+    if (count_ == entries_.size()) {
+      drop(1);
+      ++overtaken_;
+    }
     Entry& entry = entries_[(first_ + count_) % entries_.size()];
     entry.value = value;
     entry.arrives = arrives;
@@ -31,10 +35,14 @@ class DelayLine {
       if (entry.arrives > now) continue;
       newest = entry.value;
       drop(i);
+      overtaken_ += static_cast<std::int64_t>(i) - 1;
       return true;
     }
     return false;
   }
+
+  /// Number of values that were dropped because a newer one was there.
+  std::int64_t overtaken() const noexcept { return overtaken_; }
 
  private:
   struct Entry {
@@ -50,6 +58,7 @@ class DelayLine {
   std::vector<Entry> entries_;
   std::size_t first_ = 0;
   std::size_t count_ = 0;
+  std::int64_t overtaken_ = 0;
 };
 
 /// The number of values that are on their way for `delay` (seconds), if one is pushed every 1/rate seconds (rate in

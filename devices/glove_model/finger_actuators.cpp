@@ -11,6 +11,13 @@ bool is_exhausted(const FingerOrder& order) noexcept {
   return order.limits == nullptr || order.age > order.limits->expiry;
 }
 
+/// The limit at the actuator, which a finger that presses takes along by half of the backlash.
+JointLimit at_actuator(JointLimit limit, double backlash) noexcept {
+  limit.lower += 0.5 * backlash;
+  limit.upper -= 0.5 * backlash;
+  return limit;
+}
+
 }  // namespace
 
 double quantised(double angle, double resolution) noexcept {
@@ -39,7 +46,7 @@ void FingerActuators::measure(std::chrono::nanoseconds now, const FingerOrder& o
     measured_[i] = angle;
     if (!actuator_.is_driven[i]) continue;
     if (kind_ == FingerKind::kTorque) wanted[i] = order.torques[i];
-    if (has_limits) wanted[i] = limit_torque(order.limits->joints[i], angle, rate);
+    if (has_limits) wanted[i] = limit_torque(at_actuator(order.limits->joints[i], actuator_.backlash), angle, rate);
   }
   on_the_way_.push(wanted, now + delay_);
 }

@@ -30,7 +30,7 @@ FingerJointConstants constants_of(const GloveModel& model, std::size_t joint) {
 }  // namespace
 
 FingerDynamics::FingerDynamics(const GloveModel& model, const hands::JointValues& angles)
-    : model_(model), wearer_(model.wearer, model.seed, kStep_s), angles_(angles), actuator_angles_(angles) {
+    : model_(model), wearer_(model.wearer, angles, model.seed, kStep_s), angles_(angles), actuator_angles_(angles) {
   joints_.reserve(hands::kJoints);
   for (std::size_t i = 0; i < hands::kJoints; ++i)
     joints_.emplace_back(constants_of(model, i), angles[i]);
@@ -53,13 +53,13 @@ void FingerDynamics::advance(std::chrono::nanoseconds dt, const hands::JointValu
 
 void FingerDynamics::step(const hands::JointValues& aims, double grip, const FingerOrder& order) noexcept {
   const std::chrono::nanoseconds now = steps_ * kFingerStep;
-  wearer_.advance(loads_);
+  wearer_.advance(angles_, loads_);
   if (actuators_) actuators_->advance(now, kStep_s, order, actuator_angles_);
   if (strings_) strings_->advance(now, kStep_s, order, angles_, rates_);
   const double friction = model_.actuator.coulomb_friction;
   for (std::size_t i = 0; i < hands::kJoints; ++i) {
     FingerJointLoads loads;
-    loads.aim = aims[i] + wearer_.tremor(i);
+    loads.aim = wearer_.aim(i, aims[i], grip);
     loads.stiffness = wearer_.stiffness(i, grip);
     loads.damping = loads.stiffness * model_.wearer.damping_time;
     if (strings_) loads.finger_torque = strings_->torque(i);

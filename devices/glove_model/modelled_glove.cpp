@@ -1,6 +1,7 @@
 #include "glove_model/modelled_glove.h"
 
 #include <cmath>
+#include <utility>
 
 #include <Eigen/Geometry>
 
@@ -50,8 +51,13 @@ std::chrono::nanoseconds ModelledGlove::link_delay() noexcept {
 }
 
 void ModelledGlove::hear(const SafeCommand& newest, std::chrono::nanoseconds now) noexcept {
-  if (has_measured_ && link_random_.uniform() >= model_.link.loss) commands_.push(newest, now + link_delay());
-  has_measured_ = false;
+  if (std::exchange(has_measured_, false)) {
+    if (is_lost()) {
+      ++lost_.commands;
+    } else {
+      commands_.push(newest, now + link_delay());
+    }
+  }
   if (commands_.take(now, command_)) heard_at_ = now;
 }
 
@@ -61,8 +67,11 @@ void ModelledGlove::measure(const GloveState& truth) noexcept {
       next_ += period_;
     last_measured_ = measured(truth);
     has_measured_ = true;
-    if (link_random_.uniform() >= model_.link.loss)
+    if (is_lost()) {
+      ++lost_.states;
+    } else {
       states_.push(last_measured_, truth.time + nanoseconds_of(model_.measurement_delay) + link_delay());
+    }
   }
   states_.take(truth.time, state_);
 }

@@ -36,6 +36,10 @@ class ModelledGlove {
   /// The newest state that has arrived at the server.
   const GloveState& state() const noexcept { return state_; }
 
+  LinkLosses losses() const noexcept {
+    return {lost_.states + states_.overtaken(), lost_.commands + commands_.overtaken()};
+  }
+
   /// The loop of an arm that holds half-spaces, or null.
   ToolLoop* tool() noexcept { return tool_ ? &*tool_ : nullptr; }
 
@@ -47,6 +51,7 @@ class ModelledGlove {
  private:
   GloveState measured(const GloveState& truth) noexcept;
   std::chrono::nanoseconds link_delay() noexcept;
+  bool is_lost() noexcept { return link_random_.uniform() < model_.link.loss; }
 
   GloveModel model_;
   std::optional<FingerDynamics> fingers_;
@@ -63,6 +68,7 @@ class ModelledGlove {
   SafeCommand command_;
   std::chrono::nanoseconds heard_at_;
   bool has_measured_ = true;
+  LinkLosses lost_;  // by chance
 };
 
 }  // namespace glissade::devices

@@ -85,6 +85,18 @@ TEST(FingerDynamics, RestsBeyondALimitWhereTheSpringsBalance) {
   EXPECT_NEAR(fingers.angles()[kIndex], (wearer * 0.6 + limit * 0.5) / (wearer + limit), 1e-6);
 }
 
+// The teeth lie on, so the finger is where the limit is, and the actuator half of the backlash before it.
+TEST(FingerDynamics, BacklashDoesNotMoveALimit) {
+  GloveModel model = quiet_model(FingerKind::kJointLimit);
+  FingerDynamics without(model, {});
+  model.actuator.backlash = 0.02;
+  FingerDynamics with(model, {});
+  const JointLimits limits = limits_at(0.5);
+  run(without, 4000, 0.6, {.limits = &limits});
+  run(with, 4000, 0.6, {.limits = &limits});
+  EXPECT_NEAR(with.angles()[kIndex], without.angles()[kIndex], 1e-4);
+}
+
 TEST(FingerDynamics, LimitsDoNotActBeforeTheyAreReached) {
   FingerDynamics fingers(quiet_model(FingerKind::kJointLimit), {});
   const JointLimits limits = limits_at(0.5);
@@ -168,33 +180,53 @@ TEST(FingerDynamics, StringsStopTheCurlAndNeverPush) {
 // The reflex stiffens the finger in two halves, after 34.6 and 59.8 ms.
 TEST(FingerWearer, StiffensAfterTheLatenciesOfTheReflex) {
   FingerWearerModel model;
-  FingerWearer wearer(model, 1, 1e-4);
+  FingerWearer wearer(model, {}, 1, 1e-4);
   const double relaxed = model.stiffness;
   const double half = model.stiffness_per_grip * model.reflex_gain * 0.5 * 0.2;
   for (int i = 0; i < 1000; ++i) {
-    wearer.advance(all(-0.2));
+    wearer.advance({}, all(-0.2));
     EXPECT_NEAR(wearer.stiffness(kIndex, 0.0), relaxed + (i >= 346 ? half : 0.0) + (i >= 598 ? half : 0.0), 1e-12) << i;
   }
 }
 
 TEST(FingerWearer, StiffnessGrowsLinearlyWithTheGrip) {
   const FingerWearerModel model;
-  const FingerWearer wearer(model, 1, 1e-4);
+  const FingerWearer wearer(model, {}, 1, 1e-4);
   EXPECT_DOUBLE_EQ(wearer.stiffness(kIndex, 0.0), model.stiffness);
   EXPECT_DOUBLE_EQ(wearer.stiffness(kIndex, 0.1), model.stiffness + 0.1 * model.stiffness_per_grip);
+}
+
+// A hand that intends to be a radian farther than the finger can go presses with its grip, whatever its stiffness.
+TEST(FingerWearer, PressesWithTheGrip) {
+  for (const double grip : {0.05, 0.2}) {
+    GloveModel model = quiet_model(FingerKind::kJointLimit);
+    model.wearer.grip = grip;
+    model.wearer.reflex_gain = 0.5;
+    FingerDynamics fingers(model, all(0.4));
+    const JointLimits limits = limits_at(0.5);
+    run(fingers, 3000, 1.5, {.limits = &limits});
+    EXPECT_NEAR(fingers.loads()[kIndex], -grip, 1e-3);
+  }
+}
+
+// A finger that nothing stops goes all the way.
+TEST(FingerWearer, GoesWhereItIntendsIfItCan) {
+  FingerDynamics fingers(quiet_model(FingerKind::kTracked), {});
+  run(fingers, 2000, 1.2, {});
+  EXPECT_NEAR(fingers.angles()[kIndex], 1.2, 1e-3);
 }
 
 // Crossings of zero in ten seconds give the frequency; the mean square gives the amplitude.
 TEST(FingerWearer, TremblesWithinItsBand) {
   const FingerWearerModel model;
-  FingerWearer wearer(model, 7, 1e-3);
+  FingerWearer wearer(model, {}, 7, 1e-3);
   for (std::size_t joint = 0; joint < hands::kJoints; joint += 7) {
     int crossings = 0;
     double squares = 0.0;
-    double last = wearer.tremor(joint);
+    double last = wearer.aim(joint, 0.0, 0.2);
     for (int i = 0; i < 10000; ++i) {
-      wearer.advance({});
-      const double now = wearer.tremor(joint);
+      wearer.advance({}, {});
+      const double now = wearer.aim(joint, 0.0, 0.2);
       crossings += now * last < 0.0 ? 1 : 0;
       squares += now * now;
       last = now;

@@ -1,5 +1,6 @@
 #include "glove_model/finger_joint.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -166,6 +167,54 @@ TEST(FingerJoint, IsStableWithAnyStiffness) {
   const FingerJoint joint = after(1.0, constants, {.aim = 0.2, .stiffness = 100.0, .damping = 0.0});
   EXPECT_TRUE(std::isfinite(joint.angle()));
   EXPECT_LT(std::abs(joint.angle()), 0.5);
+}
+
+struct Cycle {
+  double amplitude_rad = 0.0;
+  double rate_rad_per_s = 0.0;
+};
+
+/// The limit cycle of a motor with inertia J and damping b, which a spring K leads back by the angle behind a backlash.
+/// By the describing function a + j c of a load that stays where it is within the backlash (Gelb and Vander Velde,
+/// Multiple-Input Describing Functions, 1968), K (a + j c) = J ω² − j b ω. With u = 1 − backlash / amplitude,
+/// a = (π/2 + asin u + u √(1 − u²)) / π and c = −(1 − u²) / π, so ω = K (1 − u²) / (π b).
+Cycle described_cycle(double inertia, double damping, double stiffness, double backlash) {
+  double lower = 0.0;
+  double upper = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double u = 0.5 * (lower + upper);
+    const double rate = stiffness * (1.0 - u * u) / (std::numbers::pi * damping);
+    const double a = (0.5 * std::numbers::pi + std::asin(u) + u * std::sqrt(1.0 - u * u)) / std::numbers::pi;
+    (stiffness * a < inertia * rate * rate ? lower : upper) = u;
+  }
+  return {backlash / (1.0 - lower), stiffness * (1.0 - lower * lower) / (std::numbers::pi * damping)};
+}
+
+// A light finger with some damping stays where it is within the backlash. The describing function is an approximation.
+TEST(FingerJoint, HuntsInItsBacklashAsTheDescribingFunctionSays) {
+  constexpr double kStiffness = 1.0;
+  constexpr double kOfFinger = 1e-3;  // damping, Nm s/rad
+  FingerJointConstants constants = driven_joint();
+  constants.inertia = 1e-7;
+  constants.viscous_friction = 0.01;
+  constants.backlash = 0.02;
+  constants.link_stiffness = 1e4;
+  constants.link_damping = 1.0;
+  FingerJoint joint(constants, 0.3);
+  double greatest = 0.0;
+  int crossings = 0;
+  constexpr int kSeconds = 8;
+  for (int i = 0; i < std::lround(2 * kSeconds / kStep); ++i) {
+    const double before = joint.actuator_angle();
+    joint.step(kStep, {.damping = kOfFinger, .actuator_torque = -kStiffness * joint.angle()});
+    if (i < std::lround(kSeconds / kStep)) continue;  // until it has settled
+    greatest = std::max(greatest, joint.actuator_angle());
+    crossings += before < 0.0 && joint.actuator_angle() >= 0.0 ? 1 : 0;
+  }
+  const Cycle cycle = described_cycle(constants.actuator_inertia, constants.viscous_friction + kOfFinger, kStiffness,
+                                      constants.backlash);
+  EXPECT_NEAR(greatest, cycle.amplitude_rad, 0.1 * cycle.amplitude_rad);
+  EXPECT_NEAR(2.0 * std::numbers::pi * crossings / kSeconds, cycle.rate_rad_per_s, 0.05 * cycle.rate_rad_per_s);
 }
 
 }  // namespace

@@ -58,11 +58,15 @@ DeviceDescriptor servo_glove() {
 TEST(PassiveLimitStiffness, IsThatOfTheOwnLoop) {
   DeviceDescriptor glove = servo_glove();
   EXPECT_NEAR(passive_limit_stiffness(glove), 0.02 / (0.5 / 500.0 + 1e-3), 1e-12);
+  glove.joint_friction = 0.005;
+  EXPECT_NEAR(passive_limit_stiffness(glove), (0.02 + 0.005 / 0.5) / 0.002, 1e-12) << "dry friction at 0.5 rad/s";
   glove.max_limit_stiffness = 3.0;
   EXPECT_EQ(passive_limit_stiffness(glove), 3.0);
   glove.joint_friction = 0.01;
   glove.joint_resolution = 0.02;
   EXPECT_NEAR(passive_limit_stiffness(glove), 1.0, 1e-12) << "no buzz within a step of the sensor";
+  glove.finger_command = FingerCommand::kBrake;
+  EXPECT_EQ(passive_limit_stiffness(glove), 3.0) << "a brake never pushes";
   glove.finger_command = FingerCommand::kTorque;
   EXPECT_EQ(passive_limit_stiffness(glove), 0.0);
 }
