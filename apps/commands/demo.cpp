@@ -28,6 +28,7 @@
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/view/session_view.h>
+#include <glissade/devices/glove_model.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/files/file_checks.h>
 #include <glissade/realtime/periodic_thread.h>
@@ -60,6 +61,7 @@ constexpr const char* kDemoFooter =
     "  glissade demo --seconds 4\n"
     "  glissade demo --fingers --seconds 6 --report report\n"
     "  glissade demo --offline --seconds 2 --json\n"
+    "  glissade demo --offline --fingers --preset dynamixel\n"
     "  glissade demo --seconds 3 --record demo.lcmlog";
 
 /// How much longer than its script a run may take because the wearer waits: so many times as long, but at most so long.
@@ -72,6 +74,7 @@ struct DemoOptions {
   double seconds = 10.0;
   std::string scene;
   bool fingers = false;
+  std::string preset;
   bool offline = false;
   bool json = false;
   bool verbose = false;
@@ -125,12 +128,18 @@ RecordSettings record_of(const DemoOptions& options) {
   return {.log = options.record, .overwrites = options.overwrites, .scene_file = options.scene};
 }
 
+devices::SimulatedGlove simulated_glove(const HandScript& script, const std::string& preset) {
+  const devices::SimulatedGloveParameters parameters = script.with_grip({});
+  if (preset.empty()) return devices::SimulatedGlove(script.X_WH, parameters);
+  return devices::SimulatedGlove(script.X_WH, parameters, devices::read_glove_model(preset));
+}
+
 Session run_in_real_time(const Demo& demo, const HandScript& script, std::int64_t ticks, const DemoOptions& options) {
   realtime::lock_memory();
   const StopSignal stop_signal;
   const auto bus = connect_to_lcm(options.lcm_url);
   realtime::SteadyClock clock;
-  devices::SimulatedGloveService glove(bus, devices::SimulatedGlove(script.X_WH, script.with_grip({})), clock);
+  devices::SimulatedGloveService glove(bus, simulated_glove(script, options.preset), clock);
   const auto should_stop = [&] {
     return StopSignal::requested() || glove.script_time() >= std::chrono::milliseconds(ticks);
   };
@@ -165,7 +174,8 @@ int run(const DemoOptions& options) {
   check_distinct({{"--record", options.record}, {"--report", report_page(options.report)}});
   if (!options.report.empty()) prepare_report_folder(options.report);
   const Session session = options.offline
-                              ? run_session_offline(demo.scene, script, ticks, options.choice, record_of(options))
+                              ? run_session_offline(demo.scene, simulated_glove(script, options.preset),
+                                                    !script.fingers.empty(), ticks, options.choice, record_of(options))
                               : run_in_real_time(demo, script, ticks, options);
   const SessionSummary summary = conclude(
       session, demo.scene, "glissade demo: " + demo.scene.parts.front().name + (options.offline ? ", offline" : ""),
@@ -186,6 +196,9 @@ void add_demo_command(CLI::App& app, Command& chosen) {
   command
       ->add_flag("--fingers", options->fingers, "Without --scene: the hand grasps a motor with its fingers, see below")
       ->excludes("--scene");
+  command->add_option(
+      "--preset", options->preset,
+      "Wear this simulated device: a preset, see 'glissade glove --presets', or a YAML file with a model");
   add_sliding_options(*command, options->choice);
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");

@@ -156,6 +156,18 @@ void check(const GloveOptions& options) {
     throw std::invalid_argument("--poses: must lie between 0.5 and 120 s");
 }
 
+void print_summary(const devices::SimulatedGloveService& glove) {
+  const devices::LinkStatistics link = glove.link_statistics();
+  const std::uint64_t refused = link.rejected() - link.other_receiver;  // those for other gloves are no fault
+  std::cout << "glissade glove: " << glove.script_time() / std::chrono::milliseconds(1) << " ms of the script, "
+            << link.accepted << " commands (" << link.lost << " lost, " << refused << " refused), greatest force "
+            << fixed_text(glove.greatest_force(), 2) << " N\n";
+  const devices::LinkLosses losses = glove.link_losses();
+  if (losses.states + losses.commands > 0)
+    std::cout << "glissade glove: the link of the model lost " << losses.states << " states and " << losses.commands
+              << " commands\n";
+}
+
 int run(const GloveOptions& options) {
   if (options.lists_presets) {
     list_presets();
@@ -209,11 +221,7 @@ int run(const GloveOptions& options) {
   line.show({});
   glove.stop();
   if (record) record->close();
-  const devices::LinkStatistics link = glove.link_statistics();
-  const std::uint64_t refused = link.rejected() - link.other_receiver;  // those for other gloves are no fault
-  std::cout << "glissade glove: " << glove.script_time() / std::chrono::milliseconds(1) << " ms of the script, "
-            << link.accepted << " commands (" << link.lost << " lost, " << refused << " refused), greatest force "
-            << fixed_text(glove.greatest_force(), 2) << " N\n";
+  print_summary(glove);
   return 0;
 }
 

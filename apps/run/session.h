@@ -15,6 +15,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include <glissade/apps/run/session_recorder.h>
+#include <glissade/apps/run/stop_errors.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/collision/frame_result.h>
@@ -32,6 +33,15 @@ struct RealTimeFigures {
   realtime::PeriodicStatistics bare_timer;  ///< of an empty loop that runs beside it
 };
 
+/// The messages of a glove over a whole run.
+struct LinkSummary {
+  std::uint64_t states = 0;          ///< that arrived
+  std::uint64_t states_lost = 0;     ///< by their sequence
+  std::uint64_t states_refused = 0;  ///< except those of other gloves
+  std::uint64_t commands = 0;        ///< that were sent
+  std::uint64_t commands_dropped = 0;
+};
+
 /// A finished run.
 struct Session {
   std::int64_t ticks = 0;
@@ -45,6 +55,8 @@ struct Session {
   std::vector<std::shared_ptr<const grasping::HandModel>> hand_models;
   std::shared_ptr<const SessionRecorder> samples;
   std::optional<RealTimeFigures> real_time;  ///< none for an offline run
+  StopErrors::Figures stops{};               ///< of an offline run
+  std::vector<LinkSummary> links{};          ///< of each glove; none in an offline run
   std::string recording;                     ///< file; empty if none was wanted
   bool is_recording_whole = true;            ///< false if parts of it are missing
   SlidingChoice choice{};                    ///< of the user

@@ -11,6 +11,7 @@
 #include <glissade/apps/run/machine_check.h>
 #include <glissade/apps/run/run_watch.h>
 #include <glissade/apps/run/session_sink.h>
+#include <glissade/apps/run/stop_errors.h>
 #include <glissade/apps/say.h>
 #include <glissade/apps/scene/scene_hash.h>
 #include <glissade/apps/scene/session_start.h>
@@ -178,6 +179,16 @@ std::int64_t ticks_of(const RunSettings& settings, std::chrono::nanoseconds peri
   return std::llround((settings.seconds + settings.longer_s) / std::chrono::duration<double>(period).count());
 }
 
+std::vector<LinkSummary> links_of(const std::vector<std::unique_ptr<devices::LcmGlove>>& gloves) {
+  std::vector<LinkSummary> links;
+  for (const std::unique_ptr<devices::LcmGlove>& glove : gloves) {
+    const devices::LinkStatistics states = glove->statistics();
+    links.push_back({states.accepted, states.lost, states.rejected() - states.other_receiver, glove->commands_sent(),
+                     glove->commands_dropped()});
+  }
+  return links;
+}
+
 /// Tells what happens while the server runs.
 void watch_until_end(haptics::HapticServer& server, const std::vector<std::unique_ptr<devices::LcmGlove>>& gloves,
                      const std::vector<std::int64_t>& numbers, RunWatch& run_watch, RunRecorders& recorders,
@@ -203,14 +214,13 @@ void watch_until_end(haptics::HapticServer& server, const std::vector<std::uniqu
 
 }  // namespace
 
-Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
-                            const SlidingChoice& choice, const RecordSettings& record) {
-  devices::SimulatedGlove glove(script.X_WH, script.with_grip({}));
+Session run_session_offline(const HapticScene& scene, devices::SimulatedGlove glove, bool has_fingers,
+                            std::int64_t ticks, const SlidingChoice& choice, const RecordSettings& record) {
   Grip grip{.device = glove.descriptor()};
-  if (script.fingers.empty()) {
-    grip.part = 0;
-  } else {
+  if (has_fingers) {
     grip.fingers.emplace();
+  } else {
+    grip.part = 0;
   }
   grasping::GraspSimulation simulation = start_simulation(scene, {grip}, choice, {});
   validate(record);
@@ -221,15 +231,18 @@ Session run_session_offline(const HapticScene& scene, const HandScript& script, 
   std::optional<haptics::LogRecorder> log;
   if (!record.log.empty()) log.emplace(record.log, head_of(offline_session(scene, grip, choice, record)));
   ProgressBar progress("offline", ticks);
+  StopErrors stops;
   haptics::run_offline({{&glove, grip.part}}, simulation, ticks,
                        [&](const devices::HapticState& sample) {
                          recorder->record(sample);
+                         stops.note(sample, glove);
                          progress.update(recorder->total());
                        },
                        {.observer = log ? &*log : nullptr});
   if (log) log->close();
   Session session =
       finished(ticks, haptics::kTickPeriod, scene, simulation, {devices::kDefaultDevice}, recorder, std::nullopt);
+  session.stops = stops.figures();
   session.recording = record.log;
   session.choice = choice;
   return session;
@@ -289,6 +302,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   if (server.has_failed()) throw std::runtime_error("the simulation failed: " + server.failure());
   Session session = finished(server.ticks(), period, scene, simulation, numbers, recorder,
                              RealTimeFigures{server.statistics(), bare_timer.statistics()});
+  session.links = links_of(gloves);
   if (has_all) session.recording = settings.record.log;
   session.is_recording_whole = recorders.is_whole();
   session.choice = settings.choice;

@@ -11,24 +11,24 @@
 #include <string>
 #include <vector>
 
-#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/record/run_recorders.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/scene/sliding_option.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
+#include <glissade/devices/simulated_glove.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/haptics/coupling.h>
 
 namespace glissade::apps {
 
-/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove that follows `script`. If the
-/// script has fingers, a right hand takes hold with them; otherwise it holds the first part if it starts closed. Throws
+/// Runs the whole system on a simulated clock: `ticks` milliseconds of a simulated glove. If it has fingers in the
+/// simulation, a right hand takes hold with them; otherwise it holds the first part if it starts closed. Throws
 /// std::invalid_argument, naming scene and part, when a part collides at its start, and naming the file when the
 /// recording cannot be created. There is no flight recorder.
-Session run_session_offline(const HapticScene& scene, const HandScript& script, std::int64_t ticks,
-                            const SlidingChoice& choice, const RecordSettings& record);
+Session run_session_offline(const HapticScene& scene, devices::SimulatedGlove glove, bool has_fingers,
+                            std::int64_t ticks, const SlidingChoice& choice, const RecordSettings& record);
 
 /// A glove of a run, and the part that its hand takes at the first state; or a hand with fingers, which takes hold of
 /// what it touches.

@@ -45,6 +45,14 @@ nlohmann::json to_json(const HandSummary& hand, double tick_s) {
           {"unsolved_s", tick_s * static_cast<double>(hand.unsolved_ticks)}};
 }
 
+nlohmann::json to_json(const LinkSummary& link) {
+  return {{"states", link.states},
+          {"states_lost", link.states_lost},
+          {"states_refused", link.states_refused},
+          {"commands", link.commands},
+          {"commands_dropped", link.commands_dropped}};
+}
+
 nlohmann::json stages_json(const Session& session) {
   const auto stage = [&](const collision::StageReport& sum) {
     const auto each = [&](auto value) -> nlohmann::json {
@@ -96,8 +104,10 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
   for (const PartSummary& part : summary.parts)
     parts.push_back(to_json(part, tick_s));
   nlohmann::json hands = nlohmann::json::array();
-  for (const HandSummary& hand : summary.hands)
-    hands.push_back(to_json(hand, tick_s));
+  for (std::size_t h = 0; h < summary.hands.size(); ++h) {
+    hands.push_back(to_json(summary.hands[h], tick_s));
+    hands.back()["link"] = h < session.links.size() ? to_json(session.links[h]) : nlohmann::json();
+  }
   nlohmann::json json = {{"ticks", summary.ticks},
                          {"objects", session.objects},
                          {"calls", session.calls.calls},
@@ -112,7 +122,12 @@ nlohmann::json to_json(const SessionSummary& summary, const Session& session) {
                          {"checked_poses", summary.checked},
                          {"goal_reached", nullptr},
                          {"goal_distance_m", nullptr},
+                         {"stops", nullptr},
                          {"hash", hexadecimal(summary.hash)}};
+  if (session.stops.joints > 0)
+    json["stops"] = {{"joints", session.stops.joints},
+                     {"error_mean_deg", session.stops.mean_deg},
+                     {"error_greatest_deg", session.stops.greatest_deg}};
   if (summary.goal_reached) {
     json["goal_reached"] = *summary.goal_reached;
     json["goal_distance_m"] = summary.goal_distance_m;

@@ -134,6 +134,12 @@ void add_hand_rows(const HandSummary& hand, const std::string& name, const Sessi
                                            static_cast<long long>(summary.checked)));
 }
 
+std::string link_text(const LinkSummary& link) {
+  const auto number = [](std::uint64_t count) { return std::to_string(count); };
+  return number(link.states) + " states (" + number(link.states_lost) + " lost, " + number(link.states_refused) +
+         " refused), " + number(link.commands) + " commands (" + number(link.commands_dropped) + " dropped)";
+}
+
 Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose) {
   if (summary.samples == 0) return {{"ticks", "0: the run ended before the first state of a glove"}};
   Rows rows;
@@ -143,8 +149,15 @@ Rows rows_of(const SessionSummary& summary, const Session& session, bool verbose
   }
   for (const PartSummary& part : summary.parts)
     add_part_rows(part, summary, rows);
-  for (std::size_t h = 0; h < summary.hands.size(); ++h)
+  for (std::size_t h = 0; h < summary.hands.size(); ++h) {
     add_hand_rows(summary.hands[h], name_of_hand(session, h), summary, tick_seconds(session), rows);
+    if (h < session.links.size()) rows.emplace_back("  messages", link_text(session.links[h]));
+  }
+  if (session.stops.joints > 0) {
+    rows.emplace_back("error of the stop of fingers",
+                      formatted("%.2f deg in the mean of %lld joints, %.2f deg of one", session.stops.mean_deg,
+                                static_cast<long long>(session.stops.joints), session.stops.greatest_deg));
+  }
   rows.emplace_back("objects", std::to_string(session.objects));
   rows.emplace_back("ticks", std::to_string(summary.ticks));
   if (session.calls.ended_early > 0) {

@@ -22,10 +22,11 @@ std::shared_ptr<test_support::TemporaryFolder> recorded(const std::string& log, 
   const apps::Scene scene = apps::read_or_embedded_scene("", kDemonstration);
   const apps::HandScript script =
       apps::parse_hand_script(apps::embedded_scene_script(kDemonstration), apps::embedded_script_name(kDemonstration));
+  const apps::HandScript scaled = script.time_scaled(std::chrono::milliseconds(ticks));
   apps::RecordSettings record;
   record.log = folder->path(log);
   apps::run_session_offline(apps::make_haptic_scene(scene, apps::movable_objects(scene)),
-                            script.time_scaled(std::chrono::milliseconds(ticks)), ticks, {}, record);
+                            devices::SimulatedGlove(scaled.X_WH, scaled.with_grip({})), false, ticks, {}, record);
   return folder;
 }
 

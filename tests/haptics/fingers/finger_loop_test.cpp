@@ -1,7 +1,6 @@
 /// Hands with fingers in the whole haptic loop: glove, haptic kernel, grasp simulation, and back, a millisecond a turn.
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -18,6 +17,7 @@
 #include <glissade/reference/grid_check.h>
 
 #include "clasped_hand.h"
+#include "closing_hand.h"
 #include "poses.h"
 
 namespace glissade::haptics {
@@ -38,13 +38,12 @@ using test_support::at;
 using test_support::hand_chain;
 using test_support::hand_model;
 
-/// A ball in the open palm of a hand with its root at the origin, and a wall beyond it, whose face is at 0.24 m.
+/// A ball in the open palm of a hand, and a wall beyond it, whose face is at 0.24 m.
 struct BallAndWall {
-  std::shared_ptr<const geometry::TriangleMesh> ball =
-      std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(0.035, 2000));
+  std::shared_ptr<const geometry::TriangleMesh> ball = test_support::ball_for_hand();
   std::shared_ptr<const geometry::TriangleMesh> wall =
       std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.02, 0.6, 0.6}, 2000));
-  Isometry3d X_WBall = at(0.07, -0.006, -0.057);
+  Isometry3d X_WBall = test_support::kBallInHand;
   Isometry3d X_WWall = at(0.25, 0.0, 0.0);
 
   GraspSimulation simulation(std::size_t hands, const contact::SlidingRules& rules = {},
@@ -74,27 +73,11 @@ struct BallAndWall {
   }
 };
 
-/// The joints of thumb and fingers, the latter all alike; degrees.
-JointValues joints(const std::array<double, 4>& thumb, const std::array<double, 3>& finger) {
-  constexpr double kDegree = std::numbers::pi / 180.0;
-  JointValues angles{};
-  for (std::size_t i = 0; i < 4; ++i)
-    angles[i] = kDegree * thumb[i];
-  for (const std::size_t first : {4U, 7U, 11U, 15U}) {
-    for (std::size_t i = 0; i < 3; ++i)
-      angles[first + i] = kDegree * finger[i];
-  }
-  return angles;
-}
-
-const JointValues kOpen = joints({20, -10, -15, 35}, {-15, 0, -5});
-const JointValues kClosed = joints({60, 45, 40, 20}, {55, 75, 55});
-
 /// A wearer whose open hand closes and opens at these times on the way of its root.
 devices::SimulatedGlove glove_on(geometry::PoseTrajectory script_X_WR, std::vector<std::chrono::nanoseconds> grips) {
   devices::SimulatedGloveParameters wearer;
-  wearer.grasp_posture = kClosed;
-  wearer.open_posture = kOpen;
+  wearer.grasp_posture = test_support::kClosedHand;
+  wearer.open_posture = test_support::kOpenHand;
   wearer.starts_closed = false;
   wearer.grip_changes = std::move(grips);
   return devices::SimulatedGlove(std::move(script_X_WR), wearer);
@@ -327,7 +310,7 @@ TEST(FingerLoop, StopsFingersWithinADegreeOfTheVisibleOnes) {
     if (torque == 0.0 || std::abs(moved) > 0.01) continue;  // the thumb still slides round the ball
     // What the muscles want less what they get is the angle of the glove.
     const double muscle = devices::SimulatedGloveParameters{}.finger_stiffness;
-    const double glove = kClosed[joint] + torque / muscle;
+    const double glove = test_support::kClosedHand[joint] + torque / muscle;
     EXPECT_NEAR(glove, state.hands[0].visible.angles[joint], std::numbers::pi / 180.0) << joint;
     HapticState deeper = state;
     deeper.hands[0].visible.angles[joint] -= std::copysign(std::numbers::pi / 180.0, torque);

@@ -1,0 +1,76 @@
+/// Gloves of four presets, with their own rates, delays and losses, on one server.
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <glissade/devices/glove_model.h>
+#include <glissade/devices/lcm_glove.h>
+#include <glissade/devices/simulated_glove_service.h>
+#include <glissade/geometry/mesh_generators.h>
+#include <glissade/grasping/grasp_simulation.h>
+#include <glissade/haptics/haptic_server.h>
+
+namespace glissade::haptics {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// A glove, and its two ends of the link.
+struct GloveOnServer {
+  GloveOnServer(const std::shared_ptr<devices::LcmBus>& bus, const devices::GloveModel& model, std::int64_t number)
+      : server_end(bus, devices::descriptor_of(model), {.device = number}),
+        glove(bus, devices::SimulatedGlove(geometry::PoseTrajectory({geometry::TimedPose{}}), {}, model), clock,
+              {.device = number}) {}
+
+  realtime::SteadyClock clock;
+  devices::LcmGlove server_end;
+  devices::SimulatedGloveService glove;
+};
+
+// What the links of the models lose is counted at both ends. Nothing else is lost.
+TEST(FourGloves, LoseNoMessageButOnTheLinksOfTheirModels) {
+  const auto bus = std::make_shared<devices::LcmBus>("memq://");
+  std::vector<std::unique_ptr<GloveOnServer>> gloves;
+  std::vector<HandInLoop<devices::GloveDevice>> hands;
+  for (const char* preset : {"sense_glove_r1", "dynamixel", "opengloves", "brake"}) {
+    devices::GloveModel model = devices::read_glove_model(preset);
+    if (std::string(preset) == "brake") model.link.loss = 0.2;
+    gloves.push_back(std::make_unique<GloveOnServer>(bus, model, std::ssize(gloves) + 1));
+    hands.emplace_back(&gloves.back()->server_end, std::nullopt);
+  }
+  const auto box = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({0.1, 0.1, 0.1}, 12));
+  grasping::GraspSimulation simulation(
+      {{std::make_shared<const contact::ContactBody>(box), Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0))}},
+      {{.part_V = std::make_shared<const contact::SlidingPart>(box)}},
+      std::vector<std::shared_ptr<const grasping::HandModel>>{});
+  HapticServer server(hands, simulation, {.ticks = 1500, .sink = [](const devices::HapticState&) {}});
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+  while (!server.is_done() && !server.has_failed() && std::chrono::steady_clock::now() < give_up)
+    std::this_thread::sleep_for(milliseconds(10));
+  ASSERT_TRUE(server.is_done());
+  server.stop();
+  for (const std::unique_ptr<GloveOnServer>& on_server : gloves) {
+    on_server->glove.stop();
+    const std::string name = on_server->server_end.descriptor().name;
+    const devices::LinkStatistics states = on_server->server_end.statistics();
+    const devices::LinkStatistics commands = on_server->glove.link_statistics();
+    const devices::LinkLosses losses = on_server->glove.link_losses();
+    EXPECT_GT(states.accepted, 20U) << name;
+    EXPECT_GT(commands.accepted, 500U) << name;
+    EXPECT_EQ(states.rejected() + commands.lost + commands.out_of_sequence, on_server->server_end.commands_dropped())
+        << name;
+    EXPECT_LE(states.lost, static_cast<std::uint64_t>(losses.states)) << name;
+    EXPECT_LE(losses.states, static_cast<std::int64_t>(states.lost) + 3) << name << ": the first and the last ones";
+    if (name == "brake glove") EXPECT_GT(losses.states + losses.commands, 5) << "a fifth of sixty a second";
+  }
+}
+
+}  // namespace
+}  // namespace glissade::haptics
