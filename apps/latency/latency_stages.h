@@ -25,7 +25,7 @@ struct LatencyStages {
   realtime::LatencyHistogram computation;  ///< read to handed over
   realtime::LatencyHistogram way_back;     ///< handed over to arrived
   realtime::LatencyHistogram whole;
-  std::uint64_t lost = 0;  ///< samples whose command did not arrive, or was replaced by a newer one before it was sent
+  std::uint64_t lost = 0;  ///< samples whose command did not arrive
 
   void record(const WayStamps& way) noexcept;
 };
