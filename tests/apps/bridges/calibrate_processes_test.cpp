@@ -48,7 +48,7 @@ class CalibrateProcess : public testing::Test {
  protected:
   void SetUp() override {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
-    bridges::EmulatorOptions options;
+    bridges::OpenGlovesEmulatorOptions options;
     options.link = folder.path("glove");
     options.wearer = [this](std::chrono::nanoseconds) { return curls_of(pose); };
     glove = std::make_unique<bridges::OpenGlovesEmulator>(options);

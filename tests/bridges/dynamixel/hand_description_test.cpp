@@ -41,7 +41,7 @@ TEST(DynamixelHand, DogloveIsValid) {
   for (std::size_t i = 0; i < device.joint_upper.size(); ++i)
     joints += device.joint_upper[i] > device.joint_lower[i] ? 1 : 0;
   EXPECT_EQ(joints, 14) << "the flexion joints";
-  const DynamixelHand hand = doglove();
+  const DynamixelHand hand = read_dynamixel_hand("doglove");
   for (std::size_t i = 0; i < device.joint_upper.size(); ++i) {
     const bool has_servo = std::any_of(hand.servos.begin(), hand.servos.end(), [i](const DynamixelServo& servo) {
       return static_cast<std::size_t>(servo.joint) == i;
