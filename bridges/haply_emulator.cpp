@@ -13,6 +13,7 @@
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
+#include <fcntl.h>
 
 #include <glissade/bridges/haply_emulator.h>
 #include <glissade/devices/glove_model.h>
@@ -89,6 +90,7 @@ class HaplyEmulator::Service {
 
   void listen();
   void end();
+  void begin_script() { starts_ = clock_.now(); }
   void set_plugged(bool is_plugged) { is_plugged_ = is_plugged; }
   void set_calibrated(bool is_calibrated) { is_calibrated_ = is_calibrated; }
 
@@ -113,7 +115,7 @@ class HaplyEmulator::Service {
   realtime::SteadyClock clock_;
   EmulatedArm arm_;
   double damping_N_s_per_m_ = options_.filters.damping_N_s_per_m;
-  std::optional<nanoseconds> begun_;  // the first message
+  std::optional<nanoseconds> starts_;  // the script of the hand
   bool is_plugged_ = true;
   bool is_calibrated_ = true;
   bool is_over_ = false;
@@ -131,6 +133,7 @@ class HaplyEmulator::Service {
 void HaplyEmulator::Service::listen() {
   try {
     acceptor_.open(endpoint_.protocol());
+    fcntl(acceptor_.native_handle(), F_SETFD, FD_CLOEXEC);  // a program that is started would keep the port
     acceptor_.set_option(tcp::acceptor::reuse_address(true));
     acceptor_.bind(endpoint_);
     acceptor_.listen();
@@ -184,7 +187,7 @@ void HaplyEmulator::Service::advance() {
     if (now - wish.heard < kForceLasts) f_C_D += wish.f_C_D;
   }
   if (!is_plugged_) f_C_D.setZero();
-  const bool goes_on = begun_ && now - *begun_ >= options_.wait;
+  const bool goes_on = starts_ && now >= *starts_;
   arm_.advance(now, f_C_D, wishes_.empty() ? 0.0 : damping_N_s_per_m_, goes_on);
   const std::scoped_lock lock(mutex_);
   state_.f_C_D = arm_.force();
@@ -203,7 +206,7 @@ std::string HaplyEmulator::Service::hear(std::uint64_t session, const std::strin
       wish->second.f_C_D = heard.f_C_D;
       wish->second.heard = clock_.now();
       damping_N_s_per_m_ = heard.damping_N_s_per_m.value_or(damping_N_s_per_m_);
-      begun_ = begun_.value_or(clock_.now());
+      if (!starts_) starts_ = clock_.now() + options_.wait;
     }
   } catch (const std::invalid_argument&) {  // the service answers nevertheless
   }
@@ -262,6 +265,10 @@ std::string HaplyEmulator::service() const {
 
 EmulatedHaply HaplyEmulator::state() const {
   return service_->state();
+}
+
+void HaplyEmulator::begin_script() {
+  service_->in_thread([this] { service_->begin_script(); });
 }
 
 void HaplyEmulator::unplug() {

@@ -34,7 +34,8 @@ struct HaplyEmulatorOptions {
   std::uint64_t seed = 1;  ///< of the faults
   /// Presses a button while the hand is closed.
   devices::SimulatedGlove hand = resting_haply_hand();
-  std::chrono::nanoseconds wait{0};  ///< from the first message of a program to the start of the hand's script
+  /// From the first message of a program to the start of the hand's script.
+  std::chrono::nanoseconds wait{0};
 };
 
 /// The state of the device.
@@ -56,6 +57,8 @@ class HaplyEmulator {
   /// The address of the service, for `HaplyOptions`. Any thread, as the functions below.
   std::string service() const;
   EmulatedHaply state() const;
+  /// The hand begins with its script now.
+  void begin_script();
   /// The arm loses its cable, or gets it back.
   void unplug();
   void plug();
