@@ -132,7 +132,7 @@ TEST_P(PresetFingers, StopAtTheBallAndDoNotChatter) {
 
 INSTANTIATE_TEST_SUITE_P(WithFingers, PresetFingers,
                          testing::Values(Device{"dynamixel", 0.2, 2.05, 3}, Device{"sense_glove_r1", 0.2, 2.0, 6},
-                                         Device{"opengloves", 0.1, 4.0, 6}, Device{"brake", 0.2, 15.0, 2}),
+                                         Device{"opengloves", 0.1, 4.0, 3}, Device{"brake", 0.2, 15.0, 2}),
                          [](const auto& info) { return std::string(info.param.preset); });
 
 }  // namespace
