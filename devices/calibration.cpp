@@ -12,7 +12,8 @@ namespace {
 /// A limit that stands for none stays none.
 double reported_limit(const JointCalibration& joint, double limit) noexcept {
   if (std::abs(limit) >= kNoLimit_rad) return limit;
-  return std::clamp(joint.reported(limit), -kNoLimit_rad, kNoLimit_rad);
+  constexpr double kFarthest_rad = 0.999 * kNoLimit_rad;
+  return std::clamp(joint.reported(limit), -kFarthest_rad, kFarthest_rad);
 }
 
 }  // namespace
@@ -61,6 +62,16 @@ void check_calibration(const Calibration& calibration, const DeviceDescriptor& d
     throw std::invalid_argument(of + " is for the device " + files::in_quotes(calibration.device) + ", not for " +
                                 files::in_quotes(descriptor.name));
   if (calibration.side != side) throw std::invalid_argument(of + " is for the other hand");
+  for (std::size_t j = 0; j < calibration.joints.size(); ++j) {
+    const auto& joint = calibration.joints[j];
+    if (!joint) continue;
+    const std::string name(hands::kJointNames[j]);
+    if (!(joint->gain >= kLeastGain && joint->gain <= kGreatestGain))
+      throw std::invalid_argument(of + ": the gain of " + name + " must lie between 0.2 and 5");
+    if (!std::isfinite(joint->offset)) throw std::invalid_argument(of + ": the offset of " + name + " is not finite");
+  }
+  if (!calibration.X_TH.matrix().allFinite() || !calibration.X_TH.linear().isUnitary(1e-6))
+    throw std::invalid_argument(of + ": the pose of the hand in the frame of the tracker is none");
   const bool has_offset = !calibration.X_TH.matrix().isIdentity(0.0);
   if (has_offset && (descriptor.max_force > 0.0 || descriptor.max_torque > 0.0))
     throw std::invalid_argument(of + " has a tracker, but " + files::in_quotes(descriptor.name) +

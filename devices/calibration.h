@@ -52,7 +52,8 @@ struct Calibration {
   DeviceDescriptor calibrated(const DeviceDescriptor& descriptor) const;
 };
 
-/// Throws std::invalid_argument if the calibration is for another device or side. Also throws for a device that exerts
+/// Throws std::invalid_argument if the calibration is for another device or side, or has gains out of range or numbers
+/// that are not finite. Also throws for a device that exerts
 /// a force or torque on the hand and has an `X_TH`: such a device must report the place where it exerts them.
 void check_calibration(const Calibration& calibration, const DeviceDescriptor& descriptor, hands::HandSide side);
 

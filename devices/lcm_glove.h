@@ -172,6 +172,7 @@ class LcmGloveHost {
   std::shared_ptr<LcmBus> bus_;
   LcmGloveHostOptions options_;
   std::unique_ptr<HandPoseSource> hand_pose_;
+  std::optional<GloveState> joined_;  // the newest state with a pose
   std::int64_t session_;
   SafetyEnvelope envelope_;
   SafeCommand last_;

@@ -32,11 +32,12 @@ class SafeCommand {
   /// `GloveCommand::supply`.
   double taken() const noexcept { return taken_; }
 
-  /// The same command in the angles that the device reports (`calibration.h`).
-  SafeCommand for_device(const Calibration& calibration) const noexcept;
-
  private:
   friend class SafetyEnvelope;
+  friend class LcmGloveHost;
+
+  /// The same command in the angles that the device reports (`calibration.h`), for a checked calibration.
+  SafeCommand for_device(const Calibration& calibration) const noexcept;
 
   GloveCommand values_;
   LimitReasons reasons_;

@@ -26,6 +26,7 @@ constexpr const char* kTrackerFooter =
     "stays at the last pose until --seconds or Ctrl-C.\n"
     "\n"
     "Examples, with the files of 'glissade example' and an emulated glove:\n"
+    "  glissade emulate tracker --script ball_and_tray_hand.csv --seconds 2\n"
     "  glissade emulate opengloves --link glove_port --seconds 6 & glissade emulate tracker --script "
     "ball_and_tray_hand.csv --seconds 6 & glissade bridge opengloves --port glove_port --pose-from lcm --seconds 6";
 

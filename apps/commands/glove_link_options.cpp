@@ -50,8 +50,8 @@ devices::LcmGloveHostOptions link_options(const GloveLinkOptions& options, std::
     link.calibration = devices::read_calibration(options.calibration);
   }
   if (options.pose_from.empty()) return link;
-  if (!(options.pose_rate_Hz >= 1.0 && options.pose_rate_Hz <= 1e5))
-    throw std::invalid_argument("--pose-rate-hz: must lie between 1 and 100000");
+  if (!(options.pose_rate_Hz >= 20.0 && options.pose_rate_Hz <= 1e5))
+    throw std::invalid_argument("--pose-rate-hz: must lie between 20 and 100000");
   link.hand_pose =
       devices::HandPoseOptions{.device = number_of(options.pose_from, device), .rate_Hz = options.pose_rate_Hz};
   return link;

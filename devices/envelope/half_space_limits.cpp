@@ -51,6 +51,7 @@ HeldEnergy HalfSpaceLimits::want(const HalfSpaces& wanted, const GloveState& sta
     observe_fade();
     next_ = last_;
     next_.max_force = std::max(0.0, last_.max_force - dt / fade_s_ * descriptor_.max_force);
+    change_softly(dt);  // a device may be too slow for this, or the torque too great
     return {};
   }
   const double returned = take_back();
@@ -111,7 +112,7 @@ HalfSpaces HalfSpaceLimits::within_device(const HalfSpaces& wanted, double most_
     limited.max_force = most_N;
     reasons.force_limited = HeldSpring(limited, X_WH_).size() >= most_N;
   }
-  limited.max_torque = std::min(limited.max_torque, descriptor_.max_torque);
+  limited.max_torque = std::clamp(limited.max_torque, 0.0, descriptor_.max_torque);
   return limited;
 }
 

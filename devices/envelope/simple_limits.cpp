@@ -50,7 +50,7 @@ void NormLimit::limit(Forces& forces, LimitReasons& reasons) const noexcept {
     double& torque = forces.joints[j];
     if (std::abs(torque) <= joint_limit) continue;
     torque = std::copysign(joint_limit, torque);
-    reasons.joints_limited = joint_limit > 0.0;
+    if (joint_limit > 0.0) reasons.joints_limited = true;
   }
   reasons.mean_limited = limit_norm(forces.f, largest_force());
 }

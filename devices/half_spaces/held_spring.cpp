@@ -51,7 +51,8 @@ HandWrench HeldSpring::wrench(double size) const noexcept {
   HandWrench wrench{size * direction_.head<3>(), size * radius_ * direction_.tail<3>()};
   wrench.t_H_W += p_HR_W_.cross(wrench.f_H_W);
   const double torque = wrench.t_H_W.norm();
-  if (torque > half_spaces_.max_torque) wrench.t_H_W *= half_spaces_.max_torque / torque;
+  const double most = std::max(0.0, half_spaces_.max_torque);
+  if (torque > most) wrench.t_H_W *= most / torque;
   return wrench;
 }
 

@@ -67,12 +67,12 @@ void check_half_spaces(const half_spaces_t& message, FieldCheck& fields) noexcep
     fields.magnitude("half_spaces.rows.r_W_m", row.r_W_m, kLargestPosition);
     fields.magnitude("half_spaces.rows.bound_m", row.bound_m, kLargestPosition);
   }
-  fields.magnitude("half_spaces.stiffness_N_per_m", message.stiffness_N_per_m, kLargestStiffness);
-  fields.magnitude("half_spaces.rotational_stiffness_Nm_per_rad", message.rotational_stiffness_Nm_per_rad,
-                   kLargestStiffness);
-  fields.magnitude("half_spaces.damping_N_s_per_m", message.damping_N_s_per_m, kLargestDamping);
-  fields.magnitude("half_spaces.max_force_N", message.max_force_N, kLargestForce);
-  fields.magnitude("half_spaces.max_torque_Nm", message.max_torque_Nm, kLargestTorque);
+  fields.amount("half_spaces.stiffness_N_per_m", message.stiffness_N_per_m, kLargestStiffness);
+  fields.amount("half_spaces.rotational_stiffness_Nm_per_rad", message.rotational_stiffness_Nm_per_rad,
+                kLargestStiffness);
+  fields.amount("half_spaces.damping_N_s_per_m", message.damping_N_s_per_m, kLargestDamping);
+  fields.amount("half_spaces.max_force_N", message.max_force_N, kLargestForce);
+  fields.amount("half_spaces.max_torque_Nm", message.max_torque_Nm, kLargestTorque);
 }
 
 }  // namespace glissade::devices

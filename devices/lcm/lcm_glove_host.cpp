@@ -14,16 +14,23 @@ namespace {
 
 constexpr std::chrono::milliseconds kPeriodOfServers{1};  // a faster glove waits for them
 
-/// What the glove announces.
-DeviceDescriptor announced(const DeviceDescriptor& device, const LcmGloveHostOptions& options) {
+/// The device as server and wearer see it.
+DeviceDescriptor calibrated(const DeviceDescriptor& device, const LcmGloveHostOptions& options) {
   if (options.calibration) check_calibration(*options.calibration, device, options.side);
   DeviceDescriptor descriptor = options.calibration ? options.calibration->calibrated(device) : device;
   if (!options.hand_pose) return descriptor;
   if (device.max_force > 0.0 || device.max_torque > 0.0)
     throw std::invalid_argument("The device '" + device.name +
                                 "' exerts force on the hand, so it must measure the pose of the hand itself.");
-  descriptor.update_rate = std::min(descriptor.update_rate, options.hand_pose->rate_Hz);
   return descriptor;
+}
+
+/// A command may answer a state with a pose of two of the tracker's periods ago. What fades, fades at the device's own
+/// rate, however slow the tracker is.
+double patience_periods(const DeviceDescriptor& device, const LcmGloveHostOptions& options) {
+  if (!options.hand_pose) return options.patience_periods;
+  const double period_s = std::max(1.0 / device.update_rate, std::chrono::duration<double>(kPeriodOfServers).count());
+  return std::max(options.patience_periods, 2.0 / (options.hand_pose->rate_Hz * period_s));
 }
 
 }  // namespace
@@ -34,7 +41,7 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
       options_(options),
       hand_pose_(options.hand_pose ? std::make_unique<HandPoseSource>(bus_, *options.hand_pose) : nullptr),
       session_(random_session()),
-      envelope_(announced(descriptor, options), options.patience_periods, kPeriodOfServers),
+      envelope_(calibrated(descriptor, options), patience_periods(descriptor, options), kPeriodOfServers),
       monitor_(std::make_unique<LinkMonitor>(options.lease)) {
   subscription_ = bus_->subscribe(kGloveCommandChannel, [this](std::span<const std::uint8_t> message) {
     CommandHeader header;
@@ -57,7 +64,13 @@ LcmGloveHost::LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& 
 LcmGloveHost::~LcmGloveHost() = default;
 
 bool LcmGloveHost::prepare(GloveState& measured) noexcept {
-  if (hand_pose_ && !hand_pose_->join(measured)) return false;
+  if (hand_pose_) {
+    // Once for each state: a newer pose would be told with the time of the older fingers.
+    const bool is_joined = joined_ && joined_->sequence == measured.sequence;
+    if (!is_joined && !hand_pose_->join(measured)) return false;
+    if (is_joined) measured = *joined_;
+    joined_ = measured;
+  }
   if (options_.calibration) options_.calibration->apply(measured);
   return true;
 }
@@ -69,11 +82,12 @@ bool LcmGloveHost::publish(const GloveState& state) {
   const std::chrono::nanoseconds now = clock_.now();
   if (!announced_ || now - *announced_ >= kAnnouncements) {
     announced_ = now;
-    const GloveInfo info{.device = options_.device,
-                         .session = session_,
-                         .side = options_.side,
-                         .descriptor = envelope_.descriptor(),
-                         .is_calibrated = options_.calibration.has_value()};
+    GloveInfo info{.device = options_.device,
+                   .session = session_,
+                   .side = options_.side,
+                   .descriptor = envelope_.descriptor(),
+                   .is_calibrated = options_.calibration.has_value()};
+    if (hand_pose_) info.descriptor.update_rate = std::min(info.descriptor.update_rate, options_.hand_pose->rate_Hz);
     bus_->publish(kGloveInfoChannel, encode(info));
   }
   const StateHeader header{

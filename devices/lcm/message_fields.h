@@ -84,6 +84,10 @@ class FieldCheck {
     if (std::abs(value) <= largest) return;
     note(std::isfinite(value) ? out_of_range_ : not_finite_, {.name = name, .index = index, .value = value});
   }
+  void amount(std::string_view name, double value, double largest) noexcept {
+    magnitude(name, value, largest);
+    if (value < 0.0) note(out_of_range_, {.name = name, .value = value});
+  }
   /// A quaternion or a direction.
   template <int N>
   void unit_vector(std::string_view name, const double (&values)[N]) noexcept {

@@ -160,6 +160,40 @@ TEST_F(HalfSpacesInEnvelope, DropInAFadeAndReturnSoftly) {
   EXPECT_NEAR(force().z(), 15.0, 1e-9);
 }
 
+TEST_F(HalfSpacesInEnvelope, FadeNoFasterThanForceAndTorqueOfTheDeviceMayFall) {
+  arm_.max_force_rate = 1'000.0;
+  arm_.max_torque_rate = 50.0;
+  envelope_ = SafetyEnvelope(arm_);
+  HalfSpaces floor = floor_at(0.0);
+  floor.rows[0].r_W = Vector3d(0.1, 0.0, 0.0);
+  hold(floor, 300);
+  move_to(-40e-3);
+  hold(floor, 100);
+  state_.is_enabled = false;
+  HandWrench last = half_space_wrench(safe_.values().half_spaces, state_.X_WH);
+  ASSERT_GT(last.t_H_W.norm(), 0.5);
+  while (safe_.values().half_spaces.any()) {
+    tick(floor);
+    const HandWrench wrench = half_space_wrench(safe_.values().half_spaces, state_.X_WH);
+    EXPECT_LE((wrench.f_H_W - last.f_H_W).norm(), 1.0 + 1e-9);
+    EXPECT_LE((wrench.t_H_W - last.t_H_W).norm(), 0.05 + 1e-9);
+    ASSERT_LT(wrench.f_H_W.norm() + wrench.t_H_W.norm(), last.f_H_W.norm() + last.t_H_W.norm()) << "it falls";
+    last = wrench;
+  }
+}
+
+TEST_F(HalfSpacesInEnvelope, ANegativeCapOfTheTorqueIsNone) {
+  HalfSpaces floor = floor_at(0.0);
+  floor.rows[0].r_W = Vector3d(0.1, 0.0, 0.0);
+  floor.max_torque = -1e6;
+  hold(floor, 300);
+  move_to(-10e-3);
+  hold(floor, 100);
+  const HandWrench wrench = half_space_wrench(safe_.values().half_spaces, state_.X_WH);
+  EXPECT_GT(wrench.f_H_W.z(), 1.0);
+  EXPECT_EQ(wrench.t_H_W.norm(), 0.0);
+}
+
 // A plane that pushes a hand out and is not there when it comes back would shake it.
 TEST_F(HalfSpacesInEnvelope, PlaneThatPumpsRunsOutOfEnergy) {
   hold(floor_at(-1.0), 1'000);
@@ -293,8 +327,12 @@ TEST(HalfSpacesOnTheWire, ArriveWhole) {
   EXPECT_EQ(got.max_force, 20.0);
   EXPECT_EQ(got.max_torque, 1.0);
   EXPECT_EQ(got.expiry, milliseconds(50));
-  sent.half_spaces.rows[7].n_W *= 1.1;
-  EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, sent), header, received), MessageError::kOutOfRange);
+  GloveCommand bad = sent;
+  bad.half_spaces.rows[7].n_W *= 1.1;
+  EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, bad), header, received), MessageError::kOutOfRange);
+  bad = sent;
+  bad.half_spaces.max_torque = -1.0;
+  EXPECT_EQ(decode(encode(CommandHeader{1, 7, 9}, bad), header, received), MessageError::kOutOfRange);
 }
 
 }  // namespace

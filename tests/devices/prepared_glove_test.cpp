@@ -80,6 +80,7 @@ class PreparedGlove : public testing::Test {
   }
 
   realtime::SteadyClock clock;
+  std::chrono::nanoseconds start = clock.now();
   std::shared_ptr<LcmBus> bus = std::make_shared<LcmBus>("memq://");
   LcmGloveHost host;
   HandPosePublisher tracker{bus, kDefaultDevice};
@@ -146,6 +147,36 @@ TEST_F(PreparedGlove, HoldsLimitsInItsOwnAnglesAndOpensThemWhenTheTrackerIsLost)
     answer();
     return limit.max_torque > 0.45;
   })) << "the limit comes back with the tracker";
+}
+
+// Else the hand would seem to go a whole way of the tracker in no time, and limits would open.
+TEST_F(PreparedGlove, MovingHandIsPlausibleWhileItsFingersAreLate) {
+  bool is_tracked = false;
+  for (int i = 0; i < 100; ++i) {
+    std::this_thread::sleep_for(milliseconds(5));
+    TrackedPose pose{.sequence = i, .time = clock.now()};
+    pose.X_WT.translation().x() = 1.0 * std::chrono::duration<double>(pose.time - start).count();
+    tracker.publish(pose);
+    if (i % 3 == 0) {
+      ++measured.sequence;
+      measured.time = clock.now();
+      is_tracked = host.publish(measured) || is_tracked;
+    }
+    answer();
+    EXPECT_FALSE(host.newest_command(measured).reasons().is_implausible) << i;
+  }
+  EXPECT_TRUE(is_tracked);
+}
+
+TEST(PreparedGloveOptions, RefuseGainsAndOffsetsThatAreNone) {
+  const auto bus = std::make_shared<LcmBus>("memq://");
+  for (const JointCalibration& joint : {JointCalibration{.gain = -1.0}, JointCalibration{.gain = 1e3},
+                                        JointCalibration{.gain = NAN}, JointCalibration{.offset = INFINITY}}) {
+    Calibration calibration = doubling();
+    calibration.joints[kFingerJoint] = joint;
+    EXPECT_THROW(LcmGloveHost(bus, finger_glove(), {.side = hands::HandSide::kRight, .calibration = calibration}),
+                 std::invalid_argument);
+  }
 }
 
 TEST(PreparedGloveOptions, DoNotLetATrackerPlaceAForce) {
