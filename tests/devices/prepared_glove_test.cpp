@@ -1,6 +1,8 @@
 /// What leaves the glove's end of a link: states with the pose of a tracker and calibrated angles, commands in the
 /// angles of the device, and limits that open when the tracker is lost.
 
+#include <chrono>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
