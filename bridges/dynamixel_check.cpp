@@ -195,6 +195,7 @@ bool ServoCheck::tell_time(ServoBus& bus, std::span<const std::uint8_t> ids) {
         std::all_of(answers.begin(), answers.end(), [](const auto& answer) { return answer.has_value(); });
     if (is_whole) times_ms.push_back(std::chrono::duration<double, std::milli>(clock_.now() - start).count());
   }
+  if (!goes_on_()) return true;  // stopped: nothing is known to be wrong
   const double period_ms = std::chrono::duration<double, std::milli>(hand_.period).count();
   if (times_ms.size() < kMeasurements / 2) {
     say_("more than half of the measurements are lost; check the cables and the baud rate");
@@ -230,6 +231,7 @@ bool ServoCheck::hears_board() {
            files::fixed_text(angles[static_cast<std::size_t>(measured.channel)], 3));
     return true;
   }
+  if (!goes_on_()) return true;  // stopped: nothing is known to be wrong
   say_(hand_.board_port + (bytes == 0 ? ": nothing arrives from the measuring board; is it on, and is this its port?"
                                       : ": bytes arrive, but no angles of a measuring board; is this its port?"));
   return false;

@@ -319,8 +319,8 @@ double tool_lag(const DeviceDescriptor& descriptor, std::chrono::nanoseconds per
 /// `own_lag`, the lag without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
 double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
 
-/// The stiffness (Nm/rad) of the limits that the device holds passively in its own loop, with its joint damping and
-/// friction. 0 for a device that takes torques.
+/// The stiffness (Nm/rad) of the limits that the device holds in its own loop, with its joint damping and friction:
+/// passive for a finger up to 0.5 rad/s. A faster finger may get energy in a stroke. 0 for a device that takes torques.
 double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
 
 /// The damping (Nm s/rad) of the limits of this stiffness that the device holds passively: what the stiffness leaves of

@@ -28,7 +28,8 @@ constexpr const char* kDynamixelBridgeFooter =
     "Each servo holds the limit of its joint in its own loop, so a finger stops at objects of 'glissade run "
     "--fingers'.\n"
     "The torque of the servos is off while a finger is free, and when the server or the bridge is silent. A second\n"
-    "process turns it off if the bridge is killed. The hand stays at --position-m and --orientation-wxyz.\n"
+    "process turns it off if the bridge is killed. The hand stays at --position-m and --orientation-wxyz, or goes\n"
+    "with a tracker, see --pose-from.\n"
     "\n"
     "Examples, with an emulated glove:\n"
     "  glissade bridge dynamixel --list\n"
@@ -91,7 +92,7 @@ void add_bridge_dynamixel(CLI::App& bridge, Command& chosen) {
   CLI::App* command = bridge.add_subcommand("dynamixel", kDynamixelBridge);
   command->footer(kDynamixelBridgeFooter);
   add_dynamixel_option(*command, options->hand);
-  add_port_options(*command, options->bridge);
+  add_port_options(*command, options->bridge, "Serial port, or tcp:HOST:PORT");
   command->add_option("--board-port", options->board_port, "Serial port of the measuring board");
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -78,7 +78,7 @@ void add_bridge_opengloves(CLI::App& bridge, Command& chosen) {
   const auto options = std::make_shared<OpenGlovesBridge>();
   CLI::App* command = bridge.add_subcommand("opengloves", kOpenGlovesBridge);
   command->footer(kOpenGlovesBridgeFooter);
-  add_port_options(*command, options->bridge);
+  add_port_options(*command, options->bridge, "Serial port, or tcp:HOST or tcp:HOST:PORT");
   command
       ->add_option("--full-scale", options->full_scale,
                    "Number of a closed finger: 4095 of an ESP32, 1023 of an Arduino Nano")

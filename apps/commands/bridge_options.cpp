@@ -41,8 +41,8 @@ void add_bridge_options(CLI::App& command, BridgeOptions& options, const std::st
       ->capture_default_str();
 }
 
-void add_port_options(CLI::App& command, BridgeOptions& options) {
-  command.add_option("--port", options.address, "Serial port, or tcp:HOST:PORT");
+void add_port_options(CLI::App& command, BridgeOptions& options, const std::string& ports) {
+  command.add_option("--port", options.address, ports);
   add_calibration_option(command, options.link);
   add_pose_options(command, options.link);
   add_bridge_options(command, options, "the hand root");

@@ -33,8 +33,9 @@ struct BridgeOptions {
 /// --list, --check, --side, --device, --lcm, --position-m, --orientation-wxyz, --seconds. `what` has the pose, such as
 /// "the hand root".
 void add_bridge_options(CLI::App& command, BridgeOptions& options, const std::string& what);
-/// The same for a glove at a port, with --port, --calibration, --pose-from and --pose-rate-hz.
-void add_port_options(CLI::App& command, BridgeOptions& options);
+/// The same for a glove at a port, with --port, --calibration, --pose-from and --pose-rate-hz. `ports` is the help of
+/// --port.
+void add_port_options(CLI::App& command, BridgeOptions& options, const std::string& ports);
 
 /// The pose of the two options. Throws std::invalid_argument, naming the option, if it is none.
 Eigen::Isometry3d pose_of(const BridgeOptions& options);

@@ -55,10 +55,10 @@ void add_glove_command(CLI::App& app, Command& chosen);
 /// `glissade calibrate --out FILE [--user NAME] [--device N] [--pause-s T] [--hold-s T] [--flat-at-m X Y Z]`
 void add_calibrate_command(CLI::App& app, Command& chosen);
 
-/// `glissade bridge opengloves --port PORT [--check] [--list]`
+/// `glissade bridge opengloves|dynamixel --port PORT [--check] [--list]`, `glissade bridge haply [--check] [--list]`
 void add_bridge_command(CLI::App& app, Command& chosen);
 
-/// `glissade emulate opengloves [--link PATH] [--tcp PORT] [--encoding alpha|legacy] [--fault NAME...]`
+/// `glissade emulate opengloves|dynamixel|haply|tracker [--seconds S]`, and the options of each device
 void add_emulate_command(CLI::App& app, Command& chosen);
 
 /// `glissade view [SCENE] [--lcm URL] [--port N] [--fingers]`

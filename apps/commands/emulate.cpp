@@ -15,7 +15,8 @@ namespace {
 
 constexpr const char* kEmulateFooter =
     "An emulator is a device without hardware, with the wire of the real one. To a bridge there is no difference. The\n"
-    "fingers of the wearer, the motors and strings have the dynamics of a preset of 'glissade glove --presets'.\n"
+    "fingers, motors and strings of the gloves 'dynamixel' and 'opengloves' have the dynamics of the presets of the\n"
+    "same names, see 'glissade glove --presets'. The hand of 'haply' and 'tracker' follows a script.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"

@@ -145,7 +145,7 @@ void add_emulate_haply(CLI::App& emulate, Command& chosen) {
   command->add_option("--force-scale", options->filters.force_scale, "Factor of the service on all forces")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--fault", options->faults, "What is wrong with the service, see above")
+  command->add_option("--fault", options->faults, "What is wrong with the service, see below")
       ->check(one_of({"garbage", "half-messages", "slow", "unplug", "restart"}));
   command->add_option("--seconds", options->seconds, "Time after which the service ends; 0: with Ctrl-C")
       ->capture_default_str();
