@@ -36,7 +36,10 @@ constexpr const char* kCalibrateFooter =
     "it says why, and writes nothing. See docs/devices.md in the sources.\n"
     "\n"
     "Examples, with a simulated glove that shows the poses, 2 s each:\n"
-    "  glissade glove --poses 2 & glissade calibrate --user anna --out anna.yaml --pause-s 1.6 --hold-s 0.4";
+    "  glissade glove --poses 2 & glissade calibrate --user anna --out anna.yaml --pause-s 1.6 --hold-s 0.4\n"
+    "The same without a joint whose sensor is broken:\n"
+    "  glissade glove --poses 2 & glissade calibrate --user anna --out anna_2.yaml --without index_mcp --pause-s 1.6 "
+    "--hold-s 0.4";
 
 struct CalibrateOptions {
   std::string out;

@@ -167,7 +167,7 @@ TEST_F(HalfSpacesInEnvelope, FadeNoFasterThanForceAndTorqueOfTheDeviceMayFall) {
   HalfSpaces floor = floor_at(0.0);
   floor.rows[0].r_W = Vector3d(0.1, 0.0, 0.0);
   hold(floor, 300);
-  move_to(-40e-3);
+  glide_to(-20e-3, floor, 40);
   hold(floor, 100);
   state_.is_enabled = false;
   HandWrench last = half_space_wrench(safe_.values().half_spaces, state_.X_WH);
@@ -187,7 +187,7 @@ TEST_F(HalfSpacesInEnvelope, ANegativeCapOfTheTorqueIsNone) {
   floor.rows[0].r_W = Vector3d(0.1, 0.0, 0.0);
   floor.max_torque = -1e6;
   hold(floor, 300);
-  move_to(-10e-3);
+  glide_to(-10e-3, floor, 20);
   hold(floor, 100);
   const HandWrench wrench = half_space_wrench(safe_.values().half_spaces, state_.X_WH);
   EXPECT_GT(wrench.f_H_W.z(), 1.0);
