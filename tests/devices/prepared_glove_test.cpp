@@ -2,7 +2,7 @@
 /// angles of the device, and limits that open when the tracker is lost.
 
 #include <chrono>
-#include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -173,7 +173,8 @@ TEST_F(PreparedGlove, MovingHandIsPlausibleWhileItsFingersAreLate) {
 TEST(PreparedGloveOptions, RefuseGainsAndOffsetsThatAreNone) {
   const auto bus = std::make_shared<LcmBus>("memq://");
   for (const JointCalibration& joint : {JointCalibration{.gain = -1.0}, JointCalibration{.gain = 1e3},
-                                        JointCalibration{.gain = NAN}, JointCalibration{.offset = INFINITY}}) {
+                                        JointCalibration{.gain = std::numeric_limits<double>::quiet_NaN()},
+                                        JointCalibration{.offset = std::numeric_limits<double>::infinity()}}) {
     Calibration calibration = doubling();
     calibration.joints[kFingerJoint] = joint;
     EXPECT_THROW(LcmGloveHost(bus, finger_glove(), {.side = hands::HandSide::kRight, .calibration = calibration}),
