@@ -9,7 +9,7 @@ namespace glissade::bridges {
 namespace {
 
 constexpr std::chrono::minutes kMinute{1};
-/// More than wearers differ in showing a pose, and less than what moves a fingertip by a finger's breadth.
+/// Chosen: at this error, a fingertip is off by a finger's breadth. Poses of one wearer differ by less.
 constexpr double kNoticed_rad = radians(10.0);
 constexpr double kMoved_rad = radians(30.0);  // of a joint that has moved
 constexpr int kShareOutside = 10;             // one state in so many

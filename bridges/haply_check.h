@@ -10,7 +10,7 @@
 namespace glissade::bridges {
 
 /// `say` receives a line for each device of the service, with what keeps it from being used. Throws
-/// std::invalid_argument for an address that is none, and WireError if there is no service.
+/// std::invalid_argument if the address is not "HOST" or "HOST:PORT", and WireError if there is no service.
 void list_haply_devices(const std::string& service, const std::function<void(const std::string&)>& say);
 
 /// Connects, exchanges messages without a force for some seconds, and ends. `say` receives a sentence for each finding:

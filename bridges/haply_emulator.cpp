@@ -221,7 +221,7 @@ std::string HaplyEmulator::Service::hear(std::uint64_t session, const std::strin
 
 std::string HaplyEmulator::Service::spoiled(std::string text) {
   const std::size_t size = text.size();
-  if (happens(options_.faults.half_messages)) text.resize(random_() % size);
+  if (happens(options_.faults.cut)) text.resize(random_() % size);
   if (!happens(options_.faults.garbage)) return text;
   std::string garbage(1 + random_() % size, '\0');
   constexpr unsigned kPrintable = '~' - ' ' + 1;  // a WebSocket takes no text of other bytes

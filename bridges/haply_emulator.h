@@ -18,7 +18,7 @@ namespace glissade::bridges {
 /// What may be wrong with the service.
 struct HaplyFaults {
   double garbage = 0.0;               ///< share of the answers that are another text
-  double half_messages = 0.0;         ///< share of the answers of which a part is lost
+  double cut = 0.0;                   ///< share of the answers of which a part is lost
   std::chrono::nanoseconds delay{0};  ///< from a message to its answer
 };
 

@@ -40,7 +40,7 @@ struct HaplyTraffic {
 /// force only while messages come, so nothing lasts when this process is killed or hangs.
 class HaplyWire final : public Wire {
  public:
-  /// Throws std::invalid_argument for an address that is none.
+  /// Throws std::invalid_argument if the service is not "HOST" or "HOST:PORT".
   explicit HaplyWire(HaplyOptions options);
   /// Releases.
   ~HaplyWire() override;

@@ -14,6 +14,7 @@
 
 #include <glissade/bridges/release_guard.h>
 #include <glissade/bridges/wire.h>
+#include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::bridges {
 namespace {
@@ -107,6 +108,7 @@ void obey(Guarded& guarded, const std::array<char, kLongestRelease + 1>& packet,
 /// Whatever the first process has open must end with it: only the socket stays.
 int leave_first_process(int socket) noexcept {
   setsid();
+  realtime::schedule_this_thread(realtime::kLinkPriority);  // a busy machine must not delay the release
   for (const int number : {SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGPIPE, SIGTSTP})
     signal(number, SIG_IGN);
   sigset_t none;

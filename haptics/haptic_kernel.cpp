@@ -356,8 +356,8 @@ void HapticKernel::fill(HandInDevice& hand, const Rendering& r, devices::GloveCo
 void HapticKernel::hold(HandInDevice& hand, const Rendering& r) noexcept {
   const devices::DeviceDescriptor& device = hand.envelope.descriptor();
   const contact::CouplingStiffness& K = hand.couplings[r.part()].stiffness;
-  const double exerted = size_of(r.tick.contacts, K);
-  const double demanded = size_of(r.contacts.wrench, K);
+  const double exerted = spring_size(r.tick.contacts, K);
+  const double demanded = spring_size(r.contacts.wrench, K);
   constexpr double kRounding = 1e-9;
   if (exerted > demanded * (1.0 + kRounding)) {  // contacts that vanished under the hand
     hand.half_spaces.max_force = exerted;

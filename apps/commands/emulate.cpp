@@ -23,37 +23,37 @@ constexpr const char* kEmulateFooter =
     "  glissade emulate opengloves --link glove_port --seconds 4 & glissade bridge opengloves --port glove_port "
     "--seconds 4";
 
-bool has_fault(const EmulateOptions& options, const char* name) {
-  return std::find(options.faults.begin(), options.faults.end(), name) != options.faults.end();
-}
-
-/// A plug that is in for some seconds and out for up to two, at random.
-class LoosePlug {
+/// A part that is there for some seconds and gone for up to two, at random.
+class Failing {
  public:
-  explicit LoosePlug(std::uint64_t seed) : random_(seed) {}
+  Failing(const LoosePart& part, std::uint64_t seed) : part_(part), random_(seed) {}
 
-  /// Whether the plug is in, so many seconds after the start. The times must rise.
-  bool is_in(double time_s) {
-    if (time_s >= next_s_) {
-      is_in_ = !is_in_;
-      next_s_ = time_s + (is_in_ ? between(1.0, 6.0) : between(0.1, 2.0));
-    }
-    return is_in_;
+  /// `time_s` counts from the start, and rises.
+  void advance(double time_s, StatusLine& line) {
+    if (time_s < next_s_) return;
+    is_there_ = !is_there_;
+    next_s_ = time_s + (is_there_ ? between(1.0, 6.0) : between(0.1, 2.0));
+    part_.set(is_there_);
+    line.say(std::string("glissade emulate: ") + (is_there_ ? part_.back : part_.gone));
   }
 
  private:
   double between(double least, double most) { return std::uniform_real_distribution<>(least, most)(random_); }
 
+  LoosePart part_;
   std::mt19937_64 random_;
-  bool is_in_ = true;
+  bool is_there_ = true;
   double next_s_ = 3.0;
 };
 
 }  // namespace
 
-void add_emulate_options(CLI::App& command, EmulateOptions& options) {
-  command.add_option("--fault", options.faults, "What is wrong with the wire, see below")
-      ->check(one_of({"garbage", "cut", "wrong-bits", "echo", "slow", "unplug"}));
+bool EmulateOptions::has_fault(std::string_view name) const {
+  return std::find(faults.begin(), faults.end(), name) != faults.end();
+}
+
+void add_emulate_options(CLI::App& command, EmulateOptions& options, const std::vector<std::string>& faults) {
+  command.add_option("--fault", options.faults, "What is wrong with the wire, see below")->check(one_of(faults));
   command.add_option("--seed", options.seed, "Seed of the faults")->capture_default_str();
   command.add_option("--seconds", options.seconds, "Time after which the device ends; 0: with Ctrl-C")
       ->capture_default_str();
@@ -61,11 +61,11 @@ void add_emulate_options(CLI::App& command, EmulateOptions& options) {
 
 bridges::LineFaults line_faults(const EmulateOptions& options, double share, std::chrono::nanoseconds slowness) {
   bridges::LineFaults faults;
-  if (has_fault(options, "garbage")) faults.garbage = share;
-  if (has_fault(options, "cut")) faults.cut = share;
-  if (has_fault(options, "wrong-bits")) faults.flipped_bit = share;
-  if (has_fault(options, "slow")) faults.slowness = slowness;
-  faults.has_echo = has_fault(options, "echo");
+  if (options.has_fault("garbage")) faults.garbage = share;
+  if (options.has_fault("cut")) faults.cut = share;
+  if (options.has_fault("wrong-bits")) faults.flipped_bit = share;
+  if (options.has_fault("slow")) faults.slowness = slowness;
+  faults.has_echo = options.has_fault("echo");
   return faults;
 }
 
@@ -73,18 +73,15 @@ void run_emulator(const EmulateOptions& options, const RunningEmulator& emulator
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
   StatusLine line;
-  const bool is_loose = has_fault(options, "unplug");
-  LoosePlug plug(options.seed);
-  bool is_in = true;
+  std::vector<Failing> failing;
+  for (const LoosePart& part : emulator.loose) {
+    if (options.has_fault(part.fault)) failing.emplace_back(part, options.seed + failing.size());
+  }
   while (!StopSignal::requested()) {
     const double time_s = std::chrono::duration<double>(Clock::now() - start).count();
     if (options.seconds > 0.0 && time_s > options.seconds) break;
-    const bool is_to_be_in = !is_loose || plug.is_in(time_s);
-    if (is_to_be_in != is_in) {
-      emulator.set_plugged(is_to_be_in);
-      line.say(is_to_be_in ? "glissade emulate: plugged in" : "glissade emulate: unplugged");
-      is_in = is_to_be_in;
-    }
+    for (Failing& part : failing)
+      part.advance(time_s, line);
     line.show(emulator.status());
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

@@ -66,8 +66,7 @@ int run(const DynamixelEmulation& options) {
       greatest_Nm = std::max(greatest_Nm, std::abs(servo.torque));
     return status_of(hand, servos);
   };
-  run_emulator(options.emulate,
-               {.set_plugged = [&](bool is_in) { is_in ? emulator.plug() : emulator.unplug(); }, .status = status});
+  run_emulator(options.emulate, {.loose = {plug_of(emulator)}, .status = status});
   const auto servos = emulator.servos();
   const auto held = std::count_if(servos.begin(), servos.end(), [](const auto& servo) { return servo.has_torque; });
   std::cout << "glissade emulate: greatest torque of a servo " << fixed_text(greatest_Nm, 2) << " Nm, " << held

@@ -1,20 +1,14 @@
-#include <algorithm>
 #include <chrono>
-#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
-#include <thread>
-#include <vector>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/emulate.h>
 #include <glissade/apps/files/hand_script.h>
-#include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/text.h>
-#include <glissade/apps/usage.h>
 #include <glissade/bridges/haply.h>
 #include <glissade/bridges/haply_emulator.h>
 #include <glissade/devices/glove_model.h>
@@ -28,38 +22,34 @@ constexpr const char* kHaplyEmulatorFooter =
     "begins with the script two seconds after the first message of a bridge. The script is that of 'glissade glove':\n"
     "poses in the frame of the device, and whether the hand is closed, i.e. presses a button. Without --script, the\n"
     "hand rests.\n"
-    "Faults: 'garbage' in place of one answer in ten, 'half-messages' in one answer in ten, 'slow' answers (50 ms\n"
-    "late), 'unplug' of the device and 'restart' of the service, each for a second out of five.\n"
+    "Faults: 'garbage' in place of one answer in a hundred, 'cut' answers, one in a hundred, 'slow' answers (50 ms\n"
+    "late), 'unplug' of the device and 'restart' of the service at random.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate haply --port 0 --seconds 2\n"
     "  glissade emulate haply --port 10103 --fault garbage unplug --seconds 4 & glissade bridge haply --service "
     "localhost:10103 --seconds 4";
 
-struct EmulateHaplyOptions {
+struct HaplyEmulation {
+  EmulateOptions emulate;
   int port = bridges::kHaplyPort;
   std::string script;
   bool is_before_3_5 = false;
   bool has_no_handle = false;
   bridges::HaplyFilters filters;
-  std::vector<std::string> faults;
-  double seconds = 0.0;
-
-  bool has_fault(const std::string& name) const {
-    return std::find(faults.begin(), faults.end(), name) != faults.end();
-  }
 };
 
-bridges::HaplyEmulatorOptions emulator_options(const EmulateHaplyOptions& options) {
+bridges::HaplyEmulatorOptions emulator_options(const HaplyEmulation& options) {
   bridges::HaplyEmulatorOptions emulator;
   emulator.port = static_cast<unsigned short>(options.port);
   emulator.is_before_3_5 = options.is_before_3_5;
   emulator.has_handle = !options.has_no_handle;
   emulator.filters = options.filters;
-  constexpr double kShare = 0.1;
-  if (options.has_fault("garbage")) emulator.faults.garbage = kShare;
-  if (options.has_fault("half-messages")) emulator.faults.half_messages = kShare;
-  if (options.has_fault("slow")) emulator.faults.delay = std::chrono::milliseconds(50);
+  constexpr double kShare = 0.01;
+  if (options.emulate.has_fault("garbage")) emulator.faults.garbage = kShare;
+  if (options.emulate.has_fault("cut")) emulator.faults.cut = kShare;
+  if (options.emulate.has_fault("slow")) emulator.faults.delay = std::chrono::milliseconds(50);
+  emulator.seed = options.emulate.seed;
   if (options.script.empty()) return emulator;
   emulator.wait = std::chrono::seconds(2);
   const HandScript script = read_hand_script(options.script);
@@ -74,48 +64,14 @@ std::string status_of(const bridges::EmulatedHaply& device) {
          fixed_text(device.f_C_D.norm(), 2) + " N" + (device.is_pressed ? ", button pressed" : "");
 }
 
-/// Something that fails for a second out of five.
-class Failing {
- public:
-  Failing(std::string name, std::function<void()> fail, std::function<void()> mend)
-      : name_(std::move(name)), fail_(std::move(fail)), mend_(std::move(mend)) {}
-
-  void turn(int second, StatusLine& line) {
-    const bool is_to_fail = second % 5 == 4;
-    if (is_to_fail == is_failing_) return;
-    is_failing_ = is_to_fail;
-    is_failing_ ? fail_() : mend_();
-    line.say("glissade emulate: the " + name_ + (is_failing_ ? " is gone" : " is back"));
-  }
-
- private:
-  std::string name_;
-  std::function<void()> fail_;
-  std::function<void()> mend_;
-  bool is_failing_ = false;
-};
-
-int run(const EmulateHaplyOptions& options) {
+int run(const HaplyEmulation& options) {
   const StopSignal stop_signal;
   bridges::HaplyEmulator emulator(emulator_options(options));
   std::cout << emulator.service() << std::endl;  // for a program that waits for it
-  std::vector<Failing> failing;
-  if (options.has_fault("unplug"))
-    failing.emplace_back(
-        "device", [&] { emulator.unplug(); }, [&] { emulator.plug(); });
-  if (options.has_fault("restart"))
-    failing.emplace_back(
-        "service", [&] { emulator.stop_service(); }, [&] { emulator.start_service(); });
-  StatusLine line;
-  constexpr int kTicks_per_s = 10;
-  for (int tick = 0; !StopSignal::requested(); ++tick) {
-    if (options.seconds > 0.0 && tick >= kTicks_per_s * options.seconds) break;
-    for (Failing& fault : failing)
-      fault.turn(tick / kTicks_per_s, line);
-    line.show(status_of(emulator.state()));
-    std::this_thread::sleep_for(std::chrono::milliseconds(1000 / kTicks_per_s));
-  }
-  line.show({});
+  const LoosePart service{"restart", "the service is gone", "the service is back",
+                          [&](bool is_there) { is_there ? emulator.start_service() : emulator.stop_service(); }};
+  run_emulator(options.emulate,
+               {.loose = {plug_of(emulator), service}, .status = [&] { return status_of(emulator.state()); }});
   const bridges::EmulatedHaply device = emulator.state();
   std::cout << "glissade emulate: " << device.messages << " messages, " << device.other_messages
             << " that the service does not understand\n";
@@ -125,7 +81,7 @@ int run(const EmulateHaplyOptions& options) {
 }  // namespace
 
 void add_emulate_haply(CLI::App& emulate, Command& chosen) {
-  const auto options = std::make_shared<EmulateHaplyOptions>();
+  const auto options = std::make_shared<HaplyEmulation>();
   CLI::App* command = emulate.add_subcommand("haply", "Haply's Inverse Service with an Inverse3 and a VerseGrip");
   command->footer(kHaplyEmulatorFooter);
   command->add_option("--port", options->port, "TCP port of this machine; 0: any that is free")
@@ -145,10 +101,7 @@ void add_emulate_haply(CLI::App& emulate, Command& chosen) {
   command->add_option("--force-scale", options->filters.force_scale, "Factor of the service on all forces")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  command->add_option("--fault", options->faults, "What is wrong with the service, see below")
-      ->check(one_of({"garbage", "half-messages", "slow", "unplug", "restart"}));
-  command->add_option("--seconds", options->seconds, "Time after which the service ends; 0: with Ctrl-C")
-      ->capture_default_str();
+  add_emulate_options(*command, options->emulate, {"garbage", "cut", "slow", "unplug", "restart"});
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }
 

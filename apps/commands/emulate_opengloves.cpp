@@ -62,8 +62,7 @@ int run(const OpenGlovesEmulation& options) {
   const StopSignal stop_signal;
   bridges::OpenGlovesEmulator emulator(emulator_options(options));
   std::cout << emulator.port() << std::endl;  // for a program that waits for it
-  run_emulator(options.emulate, {.set_plugged = [&](bool is_in) { is_in ? emulator.plug() : emulator.unplug(); },
-                                 .status = [&] { return status_of(emulator.state()); }});
+  run_emulator(options.emulate, {.loose = {plug_of(emulator)}, .status = [&] { return status_of(emulator.state()); }});
   const bridges::EmulatedGlove glove = emulator.state();
   std::cout << "glissade emulate: " << glove.limit_lines << " lines with limits, " << glove.stopping_lines
             << " of them stop a finger\n";

@@ -98,6 +98,7 @@ struct WebSocket::Connection {
   std::string name;
   asio_net::io_context context{1};
   Operation reading{context};
+  bool is_reading = false;  // a message that `receive` has not returned
   Operation other{context};
   beast::flat_buffer received;
   std::optional<websocket::stream<beast::tcp_stream>> socket;  // before its context
@@ -172,8 +173,10 @@ void WebSocket::close() noexcept {
 std::optional<std::string> WebSocket::receive(nanoseconds patience) {
   Connection& c = *connection_;
   if (!c.socket) c.fail("the connection is not open");
-  if (c.reading.is_over()) c.socket->async_read(c.received, c.reading.end());
+  // Not `reading.is_over()`: a message may have arrived while another was sent.
+  if (!std::exchange(c.is_reading, true)) c.socket->async_read(c.received, c.reading.end());
   if (!c.reading.wait(patience)) return std::nullopt;
+  c.is_reading = false;
   if (c.reading.error()) c.fail_connection(c.reading.error());
   std::string message = beast::buffers_to_string(c.received.data());
   c.received.clear();

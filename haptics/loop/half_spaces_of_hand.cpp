@@ -25,7 +25,7 @@ devices::HalfSpaces half_spaces_of_hand(const Eigen::Isometry3d& X_WH, const Eig
   return half_spaces;
 }
 
-double size_of(const contact::Wrench& wrench, const contact::CouplingStiffness& stiffness) noexcept {
+double spring_size(const contact::Wrench& wrench, const contact::CouplingStiffness& stiffness) noexcept {
   return std::sqrt(wrench.f.squaredNorm() + wrench.t.squaredNorm() * (stiffness.translational / stiffness.rotational));
 }
 

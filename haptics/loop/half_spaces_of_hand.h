@@ -23,6 +23,6 @@ devices::HalfSpaces half_spaces_of_hand(const Eigen::Isometry3d& X_WH, const Eig
                                         const Coupling& coupling) noexcept;
 
 /// The size of a wrench about the reference point as `devices::HalfSpaces::max_force` has it, N.
-double size_of(const contact::Wrench& wrench, const contact::CouplingStiffness& stiffness) noexcept;
+double spring_size(const contact::Wrench& wrench, const contact::CouplingStiffness& stiffness) noexcept;
 
 }  // namespace glissade::haptics

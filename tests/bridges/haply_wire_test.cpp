@@ -165,7 +165,7 @@ TEST(HaplyWire, LetsGoAtItsEndAndAtRelease) {
 }
 
 TEST(HaplyWire, LivesWithGarbageAndHalfMessages) {
-  HaplyEmulator service({.faults = {.garbage = 0.3, .half_messages = 0.3}});
+  HaplyEmulator service({.faults = {.garbage = 0.3, .cut = 0.3}});
   HaplyWire wire({.service = service.service()});
   wire.open();
   devices::GloveState state;
@@ -175,7 +175,7 @@ TEST(HaplyWire, LivesWithGarbageAndHalfMessages) {
 }
 
 TEST(HaplyWire, SaysWhatIsWrongWithMessagesThatAreNone) {
-  HaplyEmulator service({.faults = {.half_messages = 1.0}});
+  HaplyEmulator service({.faults = {.cut = 1.0}});
   HaplyWire wire({.service = service.service()});
   wire.open();
   EXPECT_THAT(failure_of(wire), HasSubstr("its messages are no states: the message is no JSON"));

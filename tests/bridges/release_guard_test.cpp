@@ -99,7 +99,7 @@ TEST_F(ReleaseGuardTest, IsSilentWhileItIsRenewed) {
     EXPECT_EQ(said, "");
     return;
   }
-  GTEST_SKIP() << "the machine is too busy";
+  FAIL() << "in each round, this thread was held up for " << (kPatience / 2).count() << " ms";
 }
 
 TEST_F(ReleaseGuardTest, KeepsNothingOpenAfterwards) {

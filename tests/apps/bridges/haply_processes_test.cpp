@@ -158,7 +158,7 @@ TEST_F(HaplyProcesses, EndsWithinASecondAndLetsGo) {
 }
 
 TEST_F(HaplyProcesses, TheForceReturnsAfterTheDeviceIsPluggedInAndTheServiceIsStartedAgain) {
-  start(pressing_hand(), kHoldsAtStart, "60", {.garbage = 0.002, .half_messages = 0.002});
+  start(pressing_hand(), kHoldsAtStart, "60", {.garbage = 0.002, .cut = 0.002});
   ASSERT_TRUE(feels_the_contact()) << bridge->standard_error() << server->standard_error();
   device->unplug();
   EXPECT_LT(time_until_free(), milliseconds(100));
