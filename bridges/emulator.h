@@ -8,7 +8,7 @@
 #include <functional>
 #include <string>
 
-#include <glissade/bridges/finger_values.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::bridges {
 
@@ -21,10 +21,10 @@ struct LineFaults {
   std::chrono::nanoseconds slowness{0};  ///< added to the time of all bytes
 };
 
-/// The curls to which a wearer moves the fingers, at a time after the start.
-using EmulatedWearer = std::function<FingerValues(std::chrono::nanoseconds)>;
+/// The joint angles (rad) to which a wearer moves the fingers, at a time after the start.
+using EmulatedWearer = std::function<hands::JointValues(std::chrono::nanoseconds)>;
 
 /// Closes and opens all fingers in four seconds, each finger a little later than the one before.
-FingerValues busy_wearer(std::chrono::nanoseconds time);
+hands::JointValues busy_wearer(std::chrono::nanoseconds time);
 
 }  // namespace glissade::bridges

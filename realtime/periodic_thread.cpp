@@ -78,18 +78,17 @@ int fifo_priority_of_this_thread() noexcept {
   return policy == SCHED_FIFO ? parameters.sched_priority : 0;
 }
 
-bool TimeShare::is_within(std::chrono::nanoseconds now, std::chrono::nanoseconds computed) noexcept {
-  constexpr std::chrono::milliseconds kWindow{10};
+bool TimeBudget::is_within(std::chrono::nanoseconds now, std::chrono::nanoseconds computed) noexcept {
   if (!window_end_ || now >= *window_end_) {
-    window_end_ = now + kWindow;
+    window_end_ = now + share_.window;
     computed_before_ = computed;
   }
-  return computed - computed_before_ <= share_ * kWindow;
+  return computed - computed_before_ <= share_.share * share_.window;
 }
 
 void FifoShare::check() noexcept {
   if (!scheduling_.is_fifo) return;
-  const bool may_be_ahead = share_.is_within(time_of(CLOCK_MONOTONIC), time_of(CLOCK_THREAD_CPUTIME_ID));
+  const bool may_be_ahead = budget_.is_within(time_of(CLOCK_MONOTONIC), time_of(CLOCK_THREAD_CPUTIME_ID));
   if (may_be_ahead == is_ahead_) return;
   is_ahead_ = may_be_ahead;
   set_policy(may_be_ahead ? SCHED_FIFO : SCHED_OTHER, may_be_ahead ? priority_ : 0);
@@ -137,7 +136,7 @@ PeriodicThread::PeriodicThread(Clock& clock, const PeriodicThreadOptions& option
     touch_stack();
     FifoShare share(options.fifo_priority, options.fifo_share);
     own.set_value(share.scheduling());
-    const bool is_for_good = options.fifo_share >= 1.0;
+    const bool is_for_good = options.fifo_share.share >= 1.0;
     run_periodic(
         clock, options.period, statistics_,
         [&](const PeriodicTick& now) {

@@ -21,18 +21,26 @@ inline constexpr int kHapticPriority = 80;
 inline constexpr int kLinkPriority = 75;        ///< receives states and sends commands, or vice versa
 inline constexpr int kSimulationPriority = 70;  ///< computes contacts
 
-/// The shares of time for which threads other than the haptic thread have their priority. The kernel stops all
+/// A part of the time: the share, from 0 to 1, of each window.
+struct TimeShare {
+  double share = 1.0;
+  std::chrono::nanoseconds window{std::chrono::milliseconds(10)};
+};
+
+/// The parts of the time for which threads other than the haptic thread have their priority. The kernel stops all
 /// SCHED_FIFO threads of a processor, including the haptic thread, if they compute for nearly all of a second (by
 /// default 0.95 s, see `sched_rt_runtime_us`). With one glove, the shares add up to 0.8 of one processor.
-inline constexpr double kLinkShare = 0.1;  ///< share of each thread that receives or sends
-inline constexpr double kSimulationShare = 0.4;
-inline constexpr double kSearchShare = 0.2;  ///< share of a thread that searches for contacts
+///
+/// A link has a long window: after a stall, it must send what waits. If it lost its priority then, more would wait.
+inline constexpr TimeShare kLinkShare{0.1, std::chrono::milliseconds(100)};  ///< of each thread that receives or sends
+inline constexpr TimeShare kSimulationShare{0.4};
+inline constexpr TimeShare kSearchShare{0.2};  ///< of a thread that searches for contacts
 
 /// Name, period and priority of a periodic thread.
 struct PeriodicThreadOptions {
   std::chrono::nanoseconds period{std::chrono::milliseconds(1)};
-  int fifo_priority = 0;    ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
-  double fifo_share = 1.0;  ///< see `FifoShare`; 1: the priority is permanent
+  int fifo_priority = 0;      ///< SCHED_FIFO priority to request, 1 to 99; 0 requests nothing
+  TimeShare fifo_share = {};  ///< see `FifoShare`; 1: the priority is permanent
   /// Time before each deadline for which the thread spins instead of sleeping, see `run_periodic`.
   std::chrono::nanoseconds spin{0};
   std::string name;  ///< see `name_this_thread`; empty: the name of the starting thread
@@ -67,29 +75,28 @@ ThreadScheduling schedule_this_thread(int priority) noexcept;
 /// The SCHED_FIFO priority of the calling thread; 0 for an ordinary thread.
 int fifo_priority_of_this_thread() noexcept;
 
-/// Checks whether a thread keeps to its share of processor time in each window of 10 ms.
-class TimeShare {
+/// Checks whether a thread keeps to its share of processor time in each window.
+class TimeBudget {
  public:
-  /// `share`, from 0 to 1, is the fraction of a window in which the thread may compute.
-  explicit TimeShare(double share) : share_(share) {}
+  explicit TimeBudget(const TimeShare& share) : share_(share) {}
 
   /// `now` is the time. `computed` is the total processor time of the thread so far.
   bool is_within(std::chrono::nanoseconds now, std::chrono::nanoseconds computed) noexcept;
 
  private:
-  double share_;
+  TimeShare share_;
   std::optional<std::chrono::nanoseconds> window_end_;
   std::chrono::nanoseconds computed_before_{0};
 };
 
-/// A SCHED_FIFO priority for a share of the time. If a thread computes for more than its share of a window of 10 ms, it
-/// becomes an ordinary thread until the next window. The thread itself constructs and uses the object. The haptic
-/// thread must not use it, because `check` calls the system.
+/// A SCHED_FIFO priority for a share of the time. If a thread computes for more than its share of a window, it becomes
+/// an ordinary thread until the next window. The thread itself constructs and uses the object. The haptic thread must
+/// not use it, because `check` calls the system.
 class FifoShare {
  public:
   /// Requests `priority` in the same way as `schedule_this_thread`.
-  FifoShare(int priority, double share)
-      : priority_(priority), share_(share), scheduling_(schedule_this_thread(priority)) {}
+  FifoShare(int priority, const TimeShare& share)
+      : priority_(priority), budget_(share), scheduling_(schedule_this_thread(priority)) {}
 
   const ThreadScheduling& scheduling() const noexcept { return scheduling_; }
 
@@ -98,7 +105,7 @@ class FifoShare {
 
  private:
   int priority_;
-  TimeShare share_;
+  TimeBudget budget_;
   ThreadScheduling scheduling_;
   bool is_ahead_ = true;
 };

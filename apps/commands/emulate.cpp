@@ -1,13 +1,17 @@
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 #include <thread>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/usage.h>
+#include <glissade/devices/simulated_glove.h>
 
 namespace glissade::apps {
 
@@ -16,7 +20,8 @@ namespace {
 constexpr const char* kEmulateFooter =
     "An emulator is a device without hardware, with the wire of the real one. To a bridge there is no difference. The\n"
     "fingers, motors and strings of the gloves 'dynamixel' and 'opengloves' have the dynamics of the presets of the\n"
-    "same names, see 'glissade glove --presets'. The hand of 'haply' and 'tracker' follows a script.\n"
+    "same names, see 'glissade glove --presets'. The hand of 'haply' and 'tracker' follows a script, and so can the\n"
+    "fingers.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"
@@ -57,6 +62,19 @@ void add_emulate_options(CLI::App& command, EmulateOptions& options, const std::
   command.add_option("--seed", options.seed, "Seed of the faults")->capture_default_str();
   command.add_option("--seconds", options.seconds, "Time after which the device ends; 0: with Ctrl-C")
       ->capture_default_str();
+}
+
+void add_wearer_option(CLI::App& command, std::string& script) {
+  command.add_option("--script", script, "Trajectory with joint angles (CSV), by which the wearer moves the fingers");
+}
+
+bridges::EmulatedWearer wearer_of(const std::string& script) {
+  if (script.empty()) return bridges::busy_wearer;
+  std::vector<devices::TimedAngles> fingers = read_hand_script(script).fingers;
+  if (fingers.empty()) throw std::invalid_argument(script + ": the columns of the 22 joint angles are missing");
+  return [fingers = std::move(fingers)](std::chrono::nanoseconds time) {
+    return devices::angles_at(fingers, fingers.front().time + time - kScriptWait);
+  };
 }
 
 bridges::LineFaults line_faults(const EmulateOptions& options, double share, std::chrono::nanoseconds slowness) {

@@ -18,12 +18,11 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kDynamixelFooter =
-    "Prints the port of its bus on standard output and, on a second line, that of its measuring board if it has one. "
-    "A\n"
-    "wearer closes and opens all fingers, each a little later than the one before, against the servos. Faults:\n"
-    "'garbage' before one packet in fifty, one packet in fifty 'cut' or with 'wrong-bits', 'echo' of all that "
-    "arrives,\n"
-    "'slow' (each answer comes 3 ms late), 'unplug' at random.\n"
+    "Prints the port of its bus on standard output and, on a second line, that of its measuring board if it has\n"
+    "one. A wearer closes and opens all fingers, each a little later than the one before, or moves them as a script\n"
+    "says, against the servos. The script is that of 'glissade glove' with joint angles, and begins after two\n"
+    "seconds. Faults: 'garbage' before one packet in fifty, one packet in fifty 'cut' or with 'wrong-bits', 'echo' of\n"
+    "all that arrives, 'slow' (each answer comes 3 ms late), 'unplug' at random.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate dynamixel --preset doglove --seconds 2\n"
@@ -33,6 +32,7 @@ constexpr const char* kDynamixelFooter =
 
 struct DynamixelEmulation {
   EmulateOptions emulate;
+  std::string script;
   DynamixelOption hand;
   std::string link;
   std::string board_link;
@@ -56,7 +56,8 @@ int run(const DynamixelEmulation& options) {
                                       {.link = options.link,
                                        .board_link = options.board_link,
                                        .faults = line_faults(options.emulate, kShare, std::chrono::milliseconds(3)),
-                                       .seed = options.emulate.seed});
+                                       .seed = options.emulate.seed,
+                                       .wearer = wearer_of(options.script)});
   std::cout << emulator.port() << std::endl;  // for a program that waits for it
   if (!emulator.board_port().empty()) std::cout << emulator.board_port() << std::endl;
   double greatest_Nm = 0.0;
@@ -83,6 +84,7 @@ void add_emulate_dynamixel(CLI::App& emulate, Command& chosen) {
   add_dynamixel_option(*glove, options->hand);
   glove->add_option("--link", options->link, "Path of a link to the port of the bus, which stays after unplugging");
   glove->add_option("--board-link", options->board_link, "The same for the measuring board");
+  add_wearer_option(*glove, options->script);
   add_emulate_options(*glove, options->emulate);
   glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

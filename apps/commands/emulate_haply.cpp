@@ -51,7 +51,7 @@ bridges::HaplyEmulatorOptions emulator_options(const HaplyEmulation& options) {
   if (options.emulate.has_fault("slow")) emulator.faults.delay = std::chrono::milliseconds(50);
   emulator.seed = options.emulate.seed;
   if (options.script.empty()) return emulator;
-  emulator.wait = std::chrono::seconds(2);
+  emulator.wait = kScriptWait;
   const HandScript script = read_hand_script(options.script);
   emulator.hand =
       devices::SimulatedGlove(script.X_WH, script.with_grip({}), devices::read_glove_model(bridges::kInverse3Preset));
@@ -74,7 +74,7 @@ int run(const HaplyEmulation& options) {
                {.loose = {plug_of(emulator), service}, .status = [&] { return status_of(emulator.state()); }});
   const bridges::EmulatedHaply device = emulator.state();
   std::cout << "glissade emulate: " << device.messages << " messages, " << device.other_messages
-            << " that the service does not understand\n";
+            << " that the service does not understand; " << fixed_text(device.f_C_D.norm(), 2) << " N at the end\n";
   return 0;
 }
 

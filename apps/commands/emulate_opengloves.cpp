@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -16,7 +17,9 @@ namespace {
 
 constexpr const char* kOpenGlovesFooter =
     "Prints its port on standard output. A wearer closes and opens all fingers, each a little later than the one\n"
-    "before, within the limits of the servos. Faults: 'garbage' before one state in ten, one state in ten 'cut' or\n"
+    "before, or moves them as a script says, within the limits of the servos. The script is that of 'glissade glove'\n"
+    "with joint angles, and begins after two seconds. Faults: 'garbage' before one state in ten, one state in ten "
+    "'cut' or\n"
     "with 'wrong-bits', 'echo' of all that arrives, 'slow' (each state comes 0.1 s late), 'unplug' at random.\n"
     "\n"
     "Examples:\n"
@@ -26,6 +29,7 @@ constexpr const char* kOpenGlovesFooter =
 
 struct OpenGlovesEmulation {
   EmulateOptions emulate;
+  std::string script;
   std::string encoding = "alpha";
   std::string link;
   int tcp_port = 0;
@@ -45,6 +49,7 @@ bridges::OpenGlovesEmulatorOptions emulator_options(const OpenGlovesEmulation& o
   emulator.tcp_port = static_cast<unsigned short>(options.tcp_port);
   emulator.faults = line_faults(options.emulate, kShare, std::chrono::milliseconds(100));
   emulator.seed = options.emulate.seed;
+  emulator.wearer = wearer_of(options.script);
   return emulator;
 }
 
@@ -64,8 +69,9 @@ int run(const OpenGlovesEmulation& options) {
   std::cout << emulator.port() << std::endl;  // for a program that waits for it
   run_emulator(options.emulate, {.loose = {plug_of(emulator)}, .status = [&] { return status_of(emulator.state()); }});
   const bridges::EmulatedGlove glove = emulator.state();
+  const auto stops = std::count_if(glove.limits.begin(), glove.limits.end(), [](int limit) { return limit > 0; });
   std::cout << "glissade emulate: " << glove.limit_lines << " lines with limits, " << glove.stopping_lines
-            << " of them stop a finger\n";
+            << " of them stop a finger; " << stops << " strings stop a finger at the end\n";
   return 0;
 }
 
@@ -85,6 +91,7 @@ void add_emulate_opengloves(CLI::App& emulate, Command& chosen) {
       ->capture_default_str();
   glove->add_option("--rate-hz", options->rate_Hz, "States per second, at most; 1 to 1000")->capture_default_str();
   glove->add_option("--full-scale", options->full_scale, "Number of a closed finger")->capture_default_str();
+  add_wearer_option(*glove, options->script);
   add_emulate_options(*glove, options->emulate);
   glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -22,8 +22,8 @@ namespace {
 constexpr const char* kTrackerFooter =
     "Sends the poses of a script on HAND_POSE, as the tracker of a hand would: for 'glissade bridge' with "
     "--pose-from.\n"
-    "The script is that of 'glissade glove'; of its columns, the tracker uses time and pose. At its end, the tracker\n"
-    "stays at the last pose until --seconds or Ctrl-C.\n"
+    "The script is that of 'glissade glove'; of its columns, the tracker uses time and pose. It begins after two\n"
+    "seconds. At its end, the tracker stays at the last pose until --seconds or Ctrl-C.\n"
     "\n"
     "Examples, with the files of 'glissade example' and an emulated glove:\n"
     "  glissade emulate tracker --script ball_and_tray_hand.csv --seconds 2\n"
@@ -51,7 +51,7 @@ int run(const TrackerOptions& options) {
     pose.time = clock.now();
     const std::chrono::duration<double> passed = pose.time - start;
     if (options.seconds > 0.0 && passed.count() > options.seconds) break;
-    const std::chrono::nanoseconds script_time = X_WT.first_time() + (pose.time - start);
+    const std::chrono::nanoseconds script_time = X_WT.first_time() + (pose.time - start) - kScriptWait;
     const geometry::FrameVelocity velocity = X_WT.velocity_at(script_time);
     pose.X_WT = X_WT.pose_at(script_time);
     pose.has_velocity = true;

@@ -5,11 +5,11 @@
 #include <numbers>
 #include <utility>
 
-#include "hand/finger_curls.h"
+#include <glissade/bridges/finger_values.h>
 
 namespace glissade::bridges {
 
-FingerValues busy_wearer(std::chrono::nanoseconds time) {
+hands::JointValues busy_wearer(std::chrono::nanoseconds time) {
   constexpr double kPeriod_s = 4.0;
   constexpr double kLag_s = 0.1;
   constexpr double kMost = 0.9;
@@ -19,19 +19,18 @@ FingerValues busy_wearer(std::chrono::nanoseconds time) {
     const double phase = std::max(0.0, time_s - kLag_s * static_cast<double>(f)) / kPeriod_s;
     curls[f] = kMost * 0.5 * (1.0 - std::cos(2.0 * std::numbers::pi * phase));
   }
-  return curls;
+  return angles_of(curls);
 }
 
 EmulatedHand::EmulatedHand(const devices::GloveModel& model, EmulatedWearer wearer)
-    : wearer_(wearer ? std::move(wearer) : busy_wearer),
-      fingers_(model, angles_of(wearer_(std::chrono::nanoseconds(0)))) {}
+    : wearer_(wearer ? std::move(wearer) : busy_wearer), fingers_(model, wearer_(std::chrono::nanoseconds(0))) {}
 
 void EmulatedHand::advance_to(std::chrono::nanoseconds now) {
   constexpr std::chrono::nanoseconds kStep = std::chrono::milliseconds(1);  // of the wearer
   constexpr bool kGrips = false;                                            // a relaxed hand
   while (now_ < now) {
     const std::chrono::nanoseconds dt = std::min(kStep, now - now_);
-    fingers_.advance(dt, angles_of(wearer_(now_)), kGrips);
+    fingers_.advance(dt, wearer_(now_), kGrips);
     now_ += dt;
   }
 }

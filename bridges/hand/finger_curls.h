@@ -25,10 +25,6 @@ inline constexpr std::size_t kJointsOfFinger = 3;
 /// The joints of a finger turn together.
 const std::array<CurlingJoint, kFingers * kJointsOfFinger>& curling_joints() noexcept;
 
-/// The angles (rad) of all joints. Those that do not curl stay: the thumb opposite to the palm, fingers side by side, a
-/// straight wrist.
-hands::JointValues angles_of(const FingerValues& curls) noexcept;
-
 /// The ranges of the joints that curl. 0 for the others.
 hands::JointValues lower_angles() noexcept;
 hands::JointValues upper_angles() noexcept;

@@ -22,7 +22,7 @@ OpenGlovesEmulatorOptions closing_to(double curl) {
   OpenGlovesEmulatorOptions options;
   options.rate_Hz = 50.0;
   options.model.wearer.tremor = 0.0;
-  options.wearer = [curl](std::chrono::nanoseconds) { return FingerValues{curl, curl, curl, curl, curl}; };
+  options.wearer = [curl](std::chrono::nanoseconds) { return angles_of({curl, curl, curl, curl, curl}); };
   return options;
 }
 

@@ -32,7 +32,7 @@ constexpr std::size_t kIndexJoint = 4;  // its mcp
 OpenGlovesEmulatorOptions still(const FingerValues& curls) {
   OpenGlovesEmulatorOptions options;
   options.model.wearer.tremor = 0.0;
-  options.wearer = [curls](std::chrono::nanoseconds) { return curls; };
+  options.wearer = [curls](std::chrono::nanoseconds) { return angles_of(curls); };
   return options;
 }
 
@@ -101,7 +101,7 @@ TEST(OpenGlovesWire, HoldsTheFingerButNotTheOthers) {
   OpenGlovesEmulatorOptions options;
   options.wearer = [&](std::chrono::nanoseconds) {
     const double curl = wanted;
-    return FingerValues{curl, curl, curl, curl, curl};
+    return angles_of({curl, curl, curl, curl, curl});
   };
   OpenGlovesEmulator glove(options);
   OpenGlovesWire wire({.port = glove.port()});

@@ -6,6 +6,7 @@
 #include <glissade/contact/spring.h>
 
 #include "held_part.h"
+#include "holding_arm.h"
 #include "poses.h"
 
 namespace glissade::test_support {
@@ -28,11 +29,14 @@ geometry::PoseTrajectory to_and_fro(const Eigen::Vector3d& p_from, const Eigen::
 
 }  // namespace
 
-devices::SimulatedGlove proof_hand(std::size_t part, std::chrono::seconds duration) {
-  using std::chrono::milliseconds;
-  return devices::SimulatedGlove(part == 0
-                                     ? to_and_fro({-0.03, 0.0, 0.0}, {0.05, 0.03, 0.01}, milliseconds(400), duration)
-                                     : to_and_fro({0.03, 0.0, 0.0}, {0.04, -0.02, 0.0}, milliseconds(500), duration));
+devices::SimulatedGlove proof_hand(std::chrono::seconds duration) {
+  return devices::SimulatedGlove(
+      to_and_fro({-0.03, 0.0, 0.0}, {0.05, 0.03, 0.01}, std::chrono::milliseconds(400), duration));
+}
+
+devices::SimulatedGlove proof_arm(std::chrono::seconds duration) {
+  return {
+      to_and_fro({0.03, 0.0, 0.0}, {0.04, -0.02, 0.0}, std::chrono::milliseconds(500), duration), {}, holding_arm()};
 }
 
 grasping::GraspSimulation proof_parts() {

@@ -13,8 +13,11 @@
 
 namespace glissade::test_support {
 
-/// Hands for the two parts that hands hold. They go to and fro for `duration`.
-devices::SimulatedGlove proof_hand(std::size_t part, std::chrono::seconds duration);
+/// A hand for the first part. It goes to and fro for `duration`.
+devices::SimulatedGlove proof_hand(std::chrono::seconds duration);
+
+/// The same for the second part. Its device takes half-spaces in place of a wrench.
+devices::SimulatedGlove proof_arm(std::chrono::seconds duration);
 
 /// Two cubes for the hands, and one that moves on its own, at a wall.
 grasping::GraspSimulation proof_parts();

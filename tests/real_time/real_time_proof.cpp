@@ -1,7 +1,7 @@
 // Runs the haptic server with two hands and three parts, as `glissade run` does, and watches the haptic thread from its
-// first counted tick to its end. The thread allocates and releases no memory, and calls no function that could wait for
-// another thread. The timer's are its only system calls. It waits for no page, which is judged only where the system
-// grants locked memory.
+// first counted tick to its end. One of the hands has a device that holds half-spaces. The thread allocates and
+// releases no memory, and calls no function that could wait for another thread. The timer's are its only system calls.
+// It waits for no page, which is judged only where the system grants locked memory.
 //
 // The loop runs at 5 kHz, so that 60,000 ticks take 12 seconds. Nothing is judged by the clock.
 
@@ -150,9 +150,9 @@ haptics::HapticServerStatistics run_server(Witness& witness, const std::shared_p
   constexpr std::chrono::seconds kLonger(600);
   realtime::SteadyClock clock;
   grasping::GraspSimulation parts = proof_parts();
-  devices::SimulatedGloveService remote(bus, proof_hand(0, kLonger), clock);
+  devices::SimulatedGloveService remote(bus, proof_hand(kLonger), clock);
   devices::LcmGlove link(bus, devices::simulated_glove_descriptor());
-  ProofGlove device(proof_hand(1, kLonger), kPeriod, [&witness] { witness.note_command(); });
+  ProofGlove device(proof_arm(kLonger), kPeriod, [&witness] { witness.note_command(); });
   haptics::FlightRecorder flight({});
   haptics::BackgroundObserver recorders({&flight});
   haptics::HapticServer server({{&link, 0}, {&device, 1}}, parts,

@@ -16,34 +16,34 @@ using std::chrono::milliseconds;
 constexpr milliseconds kStart{1000};  // the clock shows anything, and the thread has computed before
 constexpr milliseconds kComputed{70};
 
-TEST(TimeShare, IsExceededByComputingBeyondItIn10Milliseconds) {
-  TimeShare share(0.4);
-  EXPECT_TRUE(share.is_within(kStart, kComputed));
-  EXPECT_TRUE(share.is_within(kStart + milliseconds(4), kComputed + milliseconds(4)));
-  EXPECT_FALSE(share.is_within(kStart + milliseconds(5), kComputed + microseconds(4001)));
-  EXPECT_FALSE(share.is_within(kStart + microseconds(9999), kComputed + microseconds(4001)));
+TEST(TimeBudget, IsExceededByComputingBeyondTheShareOfAWindow) {
+  TimeBudget budget({.share = 0.4, .window = milliseconds(10)});
+  EXPECT_TRUE(budget.is_within(kStart, kComputed));
+  EXPECT_TRUE(budget.is_within(kStart + milliseconds(4), kComputed + milliseconds(4)));
+  EXPECT_FALSE(budget.is_within(kStart + milliseconds(5), kComputed + microseconds(4001)));
+  EXPECT_FALSE(budget.is_within(kStart + microseconds(9999), kComputed + microseconds(4001)));
 }
 
-TEST(TimeShare, BeginsAnewWithTheNextWindow) {
-  TimeShare share(0.4);
-  EXPECT_TRUE(share.is_within(kStart, kComputed));
-  EXPECT_FALSE(share.is_within(kStart + milliseconds(9), kComputed + milliseconds(9)));
-  EXPECT_TRUE(share.is_within(kStart + milliseconds(10), kComputed + milliseconds(10)));
-  EXPECT_TRUE(share.is_within(kStart + milliseconds(14), kComputed + milliseconds(14)));
-  EXPECT_FALSE(share.is_within(kStart + milliseconds(15), kComputed + milliseconds(15)));
+TEST(TimeBudget, BeginsAnewWithTheNextWindow) {
+  TimeBudget budget({.share = 0.4, .window = milliseconds(10)});
+  EXPECT_TRUE(budget.is_within(kStart, kComputed));
+  EXPECT_FALSE(budget.is_within(kStart + milliseconds(9), kComputed + milliseconds(9)));
+  EXPECT_TRUE(budget.is_within(kStart + milliseconds(10), kComputed + milliseconds(10)));
+  EXPECT_TRUE(budget.is_within(kStart + milliseconds(14), kComputed + milliseconds(14)));
+  EXPECT_FALSE(budget.is_within(kStart + milliseconds(15), kComputed + milliseconds(15)));
 }
 
-TEST(TimeShare, OfAThreadThatComputesLittleIsNeverUsedUp) {
-  TimeShare share(0.4);
+TEST(TimeBudget, OfAThreadThatComputesLittleIsNeverUsedUp) {
+  TimeBudget budget({.share = 0.4, .window = milliseconds(10)});
   for (int tick = 0; tick < 1000; ++tick)
-    EXPECT_TRUE(share.is_within(kStart + milliseconds(tick), kComputed + microseconds(350 * tick))) << tick;
+    EXPECT_TRUE(budget.is_within(kStart + milliseconds(tick), kComputed + microseconds(350 * tick))) << tick;
 }
 
 /// Ticks of a thread with priority 2 that each compute for `time`: how many of them begin with it.
 int ticks_ahead(milliseconds time, double share, int ticks) {
   SteadyClock clock;
   int ahead = 0;
-  PeriodicThread thread(clock, {.period = milliseconds(1), .fifo_priority = 2, .fifo_share = share},
+  PeriodicThread thread(clock, {.period = milliseconds(1), .fifo_priority = 2, .fifo_share = {share, milliseconds(10)}},
                         [&](const PeriodicTick& tick) {
                           ahead += fifo_priority_of_this_thread() == 2 ? 1 : 0;
                           clock.spin_until(clock.now() + time);

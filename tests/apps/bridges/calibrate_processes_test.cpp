@@ -50,7 +50,7 @@ class CalibrateProcess : public testing::Test {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
     bridges::OpenGlovesEmulatorOptions options;
     options.link = folder.path("glove");
-    options.wearer = [this](std::chrono::nanoseconds) { return curls_of(pose); };
+    options.wearer = [this](std::chrono::nanoseconds) { return bridges::angles_of(curls_of(pose)); };
     glove = std::make_unique<bridges::OpenGlovesEmulator>(options);
   }
 

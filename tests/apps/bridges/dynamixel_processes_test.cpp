@@ -40,7 +40,7 @@ class DynamixelBridgeProcess : public testing::Test {
     hand = bridges::read_dynamixel_hand(folder.path("glove.yaml"));
     const auto fist = [](std::chrono::nanoseconds time) {
       const double curl = std::min(1.0, std::chrono::duration<double>(time).count());
-      return bridges::FingerValues{curl, curl, curl, curl, curl};
+      return bridges::angles_of({curl, curl, curl, curl, curl});
     };
     glove = std::make_unique<bridges::DynamixelEmulator>(
         hand, bridges::DynamixelEmulatorOptions{.link = folder.path("servos"), .wearer = fist});

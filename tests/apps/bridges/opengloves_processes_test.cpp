@@ -28,7 +28,7 @@ class OpenGlovesBridgeProcess : public testing::Test {
     ASSERT_NE(std::getenv("GLISSADE_NETWORK_NAMESPACE"), nullptr) << "would send outside of this test";
     bridges::OpenGlovesEmulatorOptions options;
     options.link = folder.path("glove");
-    options.wearer = [](std::chrono::nanoseconds) { return bridges::FingerValues{}; };
+    options.wearer = [](std::chrono::nanoseconds) { return bridges::angles_of({}); };
     glove = std::make_unique<bridges::OpenGlovesEmulator>(options);
     bridge = std::make_unique<test_support::Process>(std::vector<std::string>{
         GLISSADE_PROGRAM, "bridge", "opengloves", "--port", options.link, "--lcm", test_support::kUrl});

@@ -75,9 +75,9 @@ class ClosesTo {
 
 /// The wearer closes the finger to 80° (1.4 rad), and opens it, each two seconds. The inertia and friction of gears
 /// let the finger go some tenths of a rad too far or not far enough.
-FingerValues beckon(std::chrono::nanoseconds time) {
+hands::JointValues beckon(std::chrono::nanoseconds time) {
   const double time_s = std::chrono::duration<double>(time).count();
-  return {0.0, 0.4 * (1.0 - std::cos(std::numbers::pi * time_s)), 0.0, 0.0, 0.0};
+  return angles_of({0.0, 0.4 * (1.0 - std::cos(std::numbers::pi * time_s)), 0.0, 0.0, 0.0});
 }
 
 TEST(BridgeToServos, LimitOfTheServerHoldsTheFinger) {

@@ -27,7 +27,7 @@ DynamixelHand two_servos() {
 
 /// An open hand that trembles only.
 DynamixelEmulatorOptions open_hand() {
-  return {.wearer = [](std::chrono::nanoseconds) { return FingerValues{}; }};
+  return {.wearer = [](std::chrono::nanoseconds) { return angles_of({}); }};
 }
 
 std::string findings(const DynamixelHand& hand, const std::string& port, bool expected) {

@@ -27,7 +27,7 @@ class GloveOfTwoServos : public testing::Test {
     // A relaxed hand, without the reflex: its stiffness is a closed form.
     model.wearer.reflex_gain = 0.0;
     stiffness_ = model.wearer.stiffness + model.wearer.stiffness_per_grip * model.wearer.open_grip;
-    glove_ = emulate(hand_, model, [this](std::chrono::nanoseconds) { return wanted_; });
+    glove_ = emulate(hand_, model, [this](std::chrono::nanoseconds) { return angles_of(wanted_); });
   }
 
   void run_for(milliseconds time) {

@@ -194,7 +194,8 @@ TEST_F(HandOfServos, BoardMeasuresMoreJoints) {
 TEST_F(HandOfServos, DogloveIsMeasuredByServosAndBoard) {
   const DynamixelHand doglove = read_dynamixel_hand("doglove");
   const FingerValues curls{0.2, 0.4, 0.5, 0.6, 0.8};
-  const ServoGlove glove = emulate(doglove, model_of(doglove), [&](std::chrono::nanoseconds) { return curls; });
+  const ServoGlove glove =
+      emulate(doglove, model_of(doglove), [&](std::chrono::nanoseconds) { return angles_of(curls); });
   const auto wire = make_dynamixel_wire(doglove, std::make_shared<EmulatedLine>(glove.bus, clock_),
                                         std::make_shared<EmulatedLine>(glove.board, clock_), clock_);
   wire->open();

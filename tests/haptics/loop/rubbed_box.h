@@ -13,28 +13,13 @@
 
 #include "disturbed_loop.h"
 #include "held_part.h"
+#include "holding_arm.h"
 #include "loop/answer.h"
 #include "poses.h"
 
 namespace glissade::haptics {
 
-/// The arm of the simulated glove, which holds half-spaces in a loop of its own.
-inline devices::GloveModel holding_arm() {
-  const devices::DeviceDescriptor glove = devices::simulated_glove_descriptor();
-  devices::GloveModel arm;
-  arm.name = "arm that holds half-spaces";
-  arm.update_rate = glove.update_rate;
-  arm.wrist = {.is_grounded = true,
-               .holds_half_spaces = true,
-               .max_force = glove.max_force,
-               .max_torque = glove.max_torque,
-               .max_stiffness = glove.max_stiffness,
-               .max_rotational_stiffness = glove.max_rotational_stiffness,
-               .max_damping = glove.max_damping,
-               .damping = glove.damping,
-               .rotational_damping = glove.rotational_damping};
-  return arm;
-}
+using test_support::holding_arm;
 
 class RubbedBox : public DisturbedWorld {
  public:

@@ -49,7 +49,7 @@ function checkArrows(states, rows) {
 
 test('a part stands where the recording of the run says', async () => {
   const log = join(folder, 'demo.lcmlog');
-  const program = new Program(['demo', '--seconds', '8', '--view', '0', '--record', log]);
+  const program = new Program(['demo', '--seconds', '20', '--view', '0', '--record', log]);
   const page = await open(browser, await program.url(), { viewport: { width: 160, height: 90 } }); // many pictures a second
   const seen = [];
   await eventually(async () => {
