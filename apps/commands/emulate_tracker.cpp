@@ -14,6 +14,7 @@
 #include <glissade/devices/hand_pose.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/realtime/clock.h>
+#include <glissade/realtime/periodic_thread.h>
 
 namespace glissade::apps {
 
@@ -44,6 +45,7 @@ int run(const TrackerOptions& options) {
   const geometry::PoseTrajectory X_WT = read_hand_script(options.script).X_WH;
   const StopSignal stop_signal;
   devices::HandPosePublisher tracker(open_bus(options.lcm), options.device);
+  realtime::schedule_this_thread(realtime::kLinkPriority);  // as a device, which is never late
   realtime::SteadyClock clock;
   const std::chrono::nanoseconds start = clock.now();
   devices::TrackedPose pose;

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include <glissade/realtime/periodic_thread.h>
+
 namespace glissade::bridges {
 namespace {
 
@@ -20,8 +22,11 @@ bool is_understood(const PluggedDevice& plugged) {
 PortRunner::PortRunner(std::vector<PluggedDevice> plugged) : plugged_(std::move(plugged)), start_(clock_.now()) {
   plug();
   thread_ = std::jthread([this](const std::stop_token& stop) {
-    while (!stop.stop_requested())
+    realtime::FifoShare share(realtime::kLinkPriority, realtime::kLinkShare);  // as a device, which is never late
+    while (!stop.stop_requested()) {
       turn();
+      share.check();
+    }
   });
 }
 

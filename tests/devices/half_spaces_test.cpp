@@ -154,9 +154,13 @@ std::optional<Vector6d> by_all_subsets(const Inequalities& inequalities) {
       G.row(row) = inequalities.G.row(i);
       h[row++] = inequalities.h[i];
     }
-    const Eigen::VectorXd multipliers = (G * G.transpose()).fullPivLu().solve(h);
-    const Vector6d x = size > 0 ? Vector6d(G.transpose() * multipliers) : Vector6d(Vector6d::Zero());
-    const bool pushes = size == 0 || multipliers.minCoeff() >= -1e-12;
+    Vector6d x = Vector6d::Zero();
+    bool pushes = true;
+    if (size > 0) {  // Eigen solves no empty system
+      const Eigen::VectorXd multipliers = (G * G.transpose()).fullPivLu().solve(h);
+      x = G.transpose() * multipliers;
+      pushes = multipliers.minCoeff() >= -1e-12;
+    }
     if (pushes && (inequalities.G * x - inequalities.h).minCoeff() >= -1e-9) return x;
   }
   return std::nullopt;
