@@ -29,10 +29,10 @@ struct TimeShare {
 
 /// The parts of the time for which threads other than the haptic thread have their priority. The kernel stops all
 /// SCHED_FIFO threads of a processor, including the haptic thread, if they compute for nearly all of a second (by
-/// default 0.95 s, see `sched_rt_runtime_us`). With one glove, the shares add up to 0.8 of one processor.
+/// default 0.95 s, see `sched_rt_runtime_us`). With one glove, the shares add up to 0.9 of one processor.
 ///
 /// A link has a long window: after a stall, it must send what waits. If it lost its priority then, more would wait.
-inline constexpr TimeShare kLinkShare{0.1, std::chrono::milliseconds(100)};  ///< of each thread that receives or sends
+inline constexpr TimeShare kLinkShare{0.15, std::chrono::milliseconds(100)};  ///< of each thread that receives or sends
 inline constexpr TimeShare kSimulationShare{0.4};
 inline constexpr TimeShare kSearchShare{0.2};  ///< of a thread that searches for contacts
 
