@@ -38,7 +38,7 @@ constexpr const char* kCollideFooter =
     "Output: one row per pose with the columns pose (counted from 0), colliding (0 or 1) and, with --pairs, pairs.\n"
     "Touching counts as colliding. With --tolerance-m T, meshes at a distance of at most T also count as colliding.\n"
     "With --distance, more columns have the exact distance, the nearest points in the frame of A, and the triangles\n"
-    "of these points. These columns are empty if the meshes intersect.\n"
+    "of these points. Points and triangles are empty if the meshes intersect; then the distance is 0.\n"
     "\n"
     "--cache stores the DOP-trees (bounding-volume hierarchies) in the files A.dop-tree and B.dop-tree. Later runs\n"
     "read these files, which saves most of the time of building the trees. If a file is damaged or does not match its\n"

@@ -28,7 +28,7 @@ std::optional<std::string> softer_beside(const devices::DeviceDescriptor& device
   if (beside >= 0.5 * stiffness) return std::nullopt;
   return "device " + in_quotes(device.name) + ": a hand 0.1 m beside the reference point of its part has " +
          rounded_text(beside) + " N/m instead of " + rounded_text(stiffness) +
-         ": the largest that is passive with the rotational damping that it tells";
+         ": limited by the rotational stiffness that it renders passively";
 }
 
 }  // namespace
@@ -41,6 +41,7 @@ std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const Sl
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   };
   for (const Grip& grip : grips) {
+    if (grip.device.max_force == 0.0) continue;  // the hand feels no force of contacts
     const double stiffness = haptics::coupling_for(grip.device, wanted, period).stiffness.translational;
     constexpr double kNearly = 1.0 - 1e-3;
     if (const std::optional<std::string> sentence = softer_beside(grip.device, wanted, stiffness, period))

@@ -43,7 +43,9 @@ TEST(SessionStart, DeviceWithoutRotationalDampingIsReportedAsSoftBesideTheRefere
   device.rotational_damping = 0.0;
   EXPECT_THAT(softer_devices({{device}}, {}, milliseconds(1)),
               ElementsAre(AllOf(HasSubstr("0.1 m beside the reference point"), HasSubstr("instead of 1000"),
-                                HasSubstr("rotational damping"))));
+                                HasSubstr("rotational stiffness"))));
+  device.max_force = 0.0;
+  EXPECT_THAT(softer_devices({{device}}, {}, milliseconds(1)), IsEmpty()) << "contacts exert nothing on the hand";
 }
 
 TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
