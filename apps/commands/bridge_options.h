@@ -61,8 +61,8 @@ struct BridgedDevice {
 };
 
 /// Runs the bridge until Ctrl-C or --seconds, in real time where the rights permit it. Returns the exit code: 1 if the
-/// hand may not be free at the end. Throws std::invalid_argument if the quaternion of the
-/// pose has another norm than 1 or a number is not finite.
+/// hand may not be free at the end. Throws std::invalid_argument if the quaternion of the pose has another norm than 1,
+/// or if a number is not finite.
 int run_bridge(const BridgeOptions& options, const BridgedDevice& device);
 
 }  // namespace glissade::apps

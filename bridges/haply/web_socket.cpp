@@ -167,6 +167,7 @@ void WebSocket::close() noexcept {
   } catch (const std::exception&) {  // then the connection ends with the socket
   }
   c.socket.reset();
+  c.is_reading = false;
   c.received.clear();
 }
 

@@ -192,6 +192,19 @@ TEST(HaplyWire, DatesASlowAnswerBack) {
   EXPECT_GE(clock.now() - state.time, milliseconds(50));
 }
 
+TEST(HaplyWire, IsOpenedAgainWhileAnAnswerIsAwaited) {
+  HaplyEmulator service({.faults = {.delay = milliseconds(50)}});
+  HaplyWire wire({.service = service.service()});
+  devices::GloveState state;
+  for (int i = 0; i < 3; ++i) {
+    wire.open();
+    EXPECT_FALSE(wire.read(state)) << "the answer takes longer than a read waits";
+    wire.release();
+  }
+  wire.open();
+  EXPECT_TRUE(turns_until(wire, state, {}, [&] { return wire.traffic().states == 1; }));
+}
+
 TEST(HaplyWire, SaysThatAServiceIsSilent) {
   HaplyEmulator service({.faults = {.delay = std::chrono::seconds(10)}});
   HaplyWire wire({.service = service.service()});

@@ -24,13 +24,14 @@ TEST(TimeBudget, IsExceededByComputingBeyondTheShareOfAWindow) {
   EXPECT_FALSE(budget.is_within(kStart + microseconds(9999), kComputed + microseconds(4001)));
 }
 
-TEST(TimeBudget, BeginsAnewWithTheNextWindow) {
-  TimeBudget budget({.share = 0.4, .window = milliseconds(10)});
+// A link that has waited sends all at once. It keeps its priority, and loses it only if it goes on like this.
+TEST(TimeBudget, OfALinkLastsForABurstAndBeginsAnewAfter100Milliseconds) {
+  TimeBudget budget(kLinkShare);
   EXPECT_TRUE(budget.is_within(kStart, kComputed));
-  EXPECT_FALSE(budget.is_within(kStart + milliseconds(9), kComputed + milliseconds(9)));
-  EXPECT_TRUE(budget.is_within(kStart + milliseconds(10), kComputed + milliseconds(10)));
   EXPECT_TRUE(budget.is_within(kStart + milliseconds(14), kComputed + milliseconds(14)));
-  EXPECT_FALSE(budget.is_within(kStart + milliseconds(15), kComputed + milliseconds(15)));
+  EXPECT_FALSE(budget.is_within(kStart + milliseconds(99), kComputed + milliseconds(16)));
+  EXPECT_TRUE(budget.is_within(kStart + milliseconds(100), kComputed + milliseconds(17)));
+  EXPECT_TRUE(budget.is_within(kStart + milliseconds(114), kComputed + milliseconds(31)));
 }
 
 TEST(TimeBudget, OfAThreadThatComputesLittleIsNeverUsedUp) {
