@@ -1,5 +1,6 @@
 /// Gloves of four presets, with their own rates, delays and losses, on one server.
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -50,11 +51,16 @@ TEST(FourGloves, LoseNoMessageButOnTheLinksOfTheirModels) {
       {{std::make_shared<const contact::ContactBody>(box), Eigen::Isometry3d(Eigen::Translation3d(1.0, 0.0, 0.0))}},
       {{.part_V = std::make_shared<const contact::SlidingPart>(box)}},
       std::vector<std::shared_ptr<const grasping::HandModel>>{});
-  HapticServer server(hands, simulation, {.ticks = 1500, .sink = [](const devices::HapticState&) {}});
-  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-  while (!server.is_done() && !server.has_failed() && std::chrono::steady_clock::now() < give_up)
+  HapticServer server(hands, simulation, {.sink = [](const devices::HapticState&) {}});
+  const auto have_exchanged_enough = [&] {  // however slow the machine is
+    return std::all_of(gloves.begin(), gloves.end(), [](const std::unique_ptr<GloveOnServer>& on_server) {
+      return on_server->server_end.statistics().accepted > 60 && on_server->glove.link_statistics().accepted > 100;
+    });
+  };
+  const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!have_exchanged_enough() && !server.has_failed() && std::chrono::steady_clock::now() < give_up)
     std::this_thread::sleep_for(milliseconds(10));
-  ASSERT_TRUE(server.is_done());
+  EXPECT_TRUE(have_exchanged_enough());
   server.stop();
   for (const std::unique_ptr<GloveOnServer>& on_server : gloves) {
     on_server->glove.stop();
@@ -62,8 +68,6 @@ TEST(FourGloves, LoseNoMessageButOnTheLinksOfTheirModels) {
     const devices::LinkStatistics states = on_server->server_end.statistics();
     const devices::LinkStatistics commands = on_server->glove.link_statistics();
     const devices::LinkLosses losses = on_server->glove.link_losses();
-    EXPECT_GT(states.accepted, 20U) << name;
-    EXPECT_GT(commands.accepted, 100U) << name;
     EXPECT_EQ(states.rejected(), states.other_receiver) << name;
     // A busy machine may drop commands before they are sent. What was lost before the first message is not noticed.
     EXPECT_LE(commands.lost + commands.out_of_sequence, on_server->server_end.commands_dropped()) << name;
