@@ -68,8 +68,9 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
       {"limit_rate", descriptor.limit_rate},
       {"max_limit_stiffness", descriptor.max_limit_stiffness},
       {"tool_rate", descriptor.tool_rate}};
+  constexpr double kGreatest = 1e9;  // squares and products of greater ones may overflow
   for (const auto& [field, value] : limits) {
-    if (!std::isfinite(value) || value < 0.0) return BadField{field, "must be finite and not negative", value};
+    if (!(value >= 0.0 && value <= kGreatest)) return BadField{field, "must lie between 0 and 1e9", value};
   }
   // A sender that leaves these fields at zero would never feel a force.
   if (descriptor.max_speed == 0.0) return BadField{"max_speed", "must be greater than 0", 0.0};

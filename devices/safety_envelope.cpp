@@ -37,8 +37,9 @@ struct SafetyEnvelope::Stages {
         period(period_of(of_device, period_of_caller)),
         rates(descriptor, in_seconds(period)),
         check(descriptor, rounded(patience_periods * std::chrono::duration<double>(period))),
+        link_delay(in_seconds(period)),
         fade(descriptor, in_seconds(period)),
-        norms(descriptor),
+        norms(descriptor, in_seconds(period)),
         energy(descriptor, rates, period, rounded(patience_periods * std::chrono::duration<double>(period))),
         finger_limits(descriptor, in_seconds(period)),
         half_spaces(descriptor, rates, in_seconds(period)) {
@@ -103,7 +104,7 @@ const DeviceDescriptor& SafetyEnvelope::descriptor() const noexcept {
 }
 
 nanoseconds SafetyEnvelope::link_delay() const noexcept {
-  return stages_->link_delay.least();
+  return stages_->link_delay.upper_quartile();
 }
 
 bool SafetyEnvelope::trusts(const GloveState& newest, nanoseconds now) noexcept {
@@ -119,12 +120,12 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
 
   SafeCommand safe;
   LimitReasons& reasons = safe.reasons_;
-  reasons = stages.check.faults(wanted, newest, stages.link_delay.least(), now);
+  reasons = stages.check.faults(wanted, newest, stages.link_delay.upper_quartile(), now);
   reasons.is_stopped = stages.is_stopped;
   if (!reasons.not_finite) {
     safe.age_ = stages.check.age_of(wanted.state_time, now);
     safe.state_age_ = stages.check.age_of(state.time, now);
-    stages.link_delay.observe(safe.age_, now);
+    stages.link_delay.observe(safe.age_, dt);
   }
   const bool is_fading = reasons.is_fading();
   if (is_finite(wanted)) {

@@ -82,8 +82,8 @@ std::string to_text(const SafeCommand& command);
 /// constant of 1 s. `SafeCommand::taken` is the energy given up. After an interruption or a change of the sender,
 /// `taken` restarts at 0, and the difference from the earlier `supply` does not count.
 ///
-/// A constant link delay does not make commands old if the whole round trip takes at most 150 ms: the smallest age of
-/// all commands in the last half second or longer (`link_delay`) is subtracted from the age of each command.
+/// A link delay does not make commands old if the whole round trip takes at most 150 ms: the delay that three of four
+/// commands keep (`link_delay`) is subtracted from the age of each command.
 ///
 /// Force and torque have separate maxima, so that a device without torque still gives its force. But the axis of the
 /// wrench moves when one of them is at its maximum. The power limit scales force and torque by the same factor.

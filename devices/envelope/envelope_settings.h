@@ -21,10 +21,13 @@ struct EnvelopeSettings {
 
   // Mean force:
   double mean_time_s = 10.0;
-  double soft_mean = 0.9;  ///< share of the largest mean from which the force is reduced, so that it ends smoothly
+  double soft_mean = 0.9;     ///< share of the largest mean from which the force is reduced at the latest
+  double mean_change = 8e-3;  ///< largest change by it in a period, as a share of the force (promise 11)
 
   // Link delay:
-  std::chrono::milliseconds delay_window{500};   ///< a delay counts if all commands of this time have it
+  double delay_follows_s = 0.25;  ///< time constant. Shorter: the force of a resting hand follows the scatter of ages
+  double lag_change = 8e-3;       ///< in a period at most, as a share of the lag: so much a force may change by it
+  double finds_delay = 4.0;       ///< times as fast at the start, while commands seem too old for a force
   std::chrono::milliseconds longest_delay{150};  ///< more is a silence
 
   // States:

@@ -3,33 +3,37 @@
 #include <algorithm>
 #include <chrono>
 
+#include "envelope/envelope_numbers.h"
 #include "envelope/envelope_settings.h"
 
 namespace glissade::devices {
 
-/// The delay that all commands of the last half second or more had.
+/// The delay of a link: the upper quartile of the ages of commands, by steps of a bounded rate that are three times as
+/// long upwards as downwards (frugal streaming, Ma, Muthukrishnan and Sandler 2013). The stiffness follows it, so it
+/// must not swing while ages scatter: the smallest age does, because one command in many hundred comes early.
 class LinkDelay {
  public:
-  void observe(std::chrono::nanoseconds age, std::chrono::nanoseconds now) noexcept {
-    if (now - begin_ >= kEnvelope.delay_window) {
-      // The first half second is not whole: nothing is known before.
-      least_before_ = begin_ == std::chrono::nanoseconds(0) ? std::chrono::nanoseconds(0) : least_;
-      least_ = age;
-      begin_ = now;
-    }
-    least_ = std::max(std::chrono::nanoseconds(0), std::min(least_, age));
+  explicit LinkDelay(double period_s) : period_s_(period_s) {}
+
+  /// `age` of the newest command, `dt` (seconds) after the last call.
+  void observe(std::chrono::nanoseconds age, double dt) noexcept {
+    if (age < std::chrono::nanoseconds(0) || age > kEnvelope.longest_delay) return;  // that is a silence
+    const double change = in_seconds(age) - delay_s_;
+    const double share = std::min(dt / kEnvelope.delay_follows_s, kEnvelope.lag_change * dt / period_s_);
+    // No force acts as long as commands still seem too old.
+    const double step = (is_found_ ? 1.0 : kEnvelope.finds_delay) * share * (delay_s_ + 0.5 * period_s_);
+    is_found_ = is_found_ || change <= step;
+    delay_s_ += std::clamp(change, -step / 3.0, step);
   }
 
-  /// 0 where it would be longer than a link's: that is a silence.
-  std::chrono::nanoseconds least() const noexcept {
-    const std::chrono::nanoseconds least = std::min(least_before_, least_);
-    return least <= kEnvelope.longest_delay ? least : std::chrono::nanoseconds(0);
+  std::chrono::nanoseconds upper_quartile() const noexcept {
+    return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(delay_s_));
   }
 
  private:
-  std::chrono::nanoseconds least_before_{0};  // in the last whole half second
-  std::chrono::nanoseconds least_{0};         // since then
-  std::chrono::nanoseconds begin_{0};         // of the present half second
+  double period_s_;
+  double delay_s_ = 0.0;
+  bool is_found_ = false;  // it has reached the age of a command
 };
 
 }  // namespace glissade::devices

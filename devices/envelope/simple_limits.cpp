@@ -58,9 +58,12 @@ void NormLimit::limit(Forces& forces, LimitReasons& reasons) const noexcept {
 double NormLimit::largest_force() const noexcept {
   const double largest_mean = descriptor_.max_mean_force;
   if (largest_mean <= 0.0 || largest_mean >= descriptor_.max_force) return descriptor_.max_force;
-  const double excess =
-      std::clamp((mean_force_ / largest_mean - kEnvelope.soft_mean) / (1.0 - kEnvelope.soft_mean), 0.0, 1.0);
-  return descriptor_.max_force + excess * (largest_mean - descriptor_.max_force);
+  // A force far above its mean raises the mean by a share of itself in each period, so the slope at which the limit
+  // falls is the share by which the force falls.
+  const double steepest = kEnvelope.mean_change * kEnvelope.mean_time_s / period_s_;
+  const double surplus = descriptor_.max_force - largest_mean;
+  const double soft = std::max((1.0 - kEnvelope.soft_mean) * largest_mean, surplus / steepest);
+  return largest_mean + surplus * std::clamp((largest_mean - mean_force_) / soft, 0.0, 1.0);
 }
 
 void NormLimit::observe_given(const Eigen::Vector3d& f, double dt) noexcept {

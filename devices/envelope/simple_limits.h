@@ -9,7 +9,7 @@ namespace glissade::devices {
 /// Norms, and the mean of the force over about ten seconds.
 class NormLimit {
  public:
-  explicit NormLimit(const DeviceDescriptor& descriptor) : descriptor_(descriptor) {}
+  NormLimit(const DeviceDescriptor& descriptor, double period_s) : descriptor_(descriptor), period_s_(period_s) {}
 
   void limit(Forces& forces, LimitReasons& reasons) const noexcept;
   /// The largest force that the mean permits, N.
@@ -18,6 +18,7 @@ class NormLimit {
 
  private:
   const DeviceDescriptor& descriptor_;
+  double period_s_;
   double mean_force_ = 0.0;
 };
 

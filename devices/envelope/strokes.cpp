@@ -17,8 +17,8 @@ Eigen::Vector3d beyond(double play, const Eigen::Vector3d& vector) noexcept {
 }  // namespace
 
 Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
-  const Eigen::Matrix3d R = B * A.transpose();
-  return 0.5 * Eigen::Vector3d(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
+  const Eigen::AngleAxisd turn(B * A.transpose());
+  return turn.angle() * turn.axis();
 }
 
 PoseInPlay::PoseInPlay(double resolution, double max_force) noexcept

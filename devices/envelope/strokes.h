@@ -12,7 +12,7 @@
 
 namespace glissade::devices {
 
-/// The rotation from A to B as a vector, small angles only.
+/// The rotation from A to B as a vector, rad.
 Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept;
 
 /// A pose that follows the measured one with a play, so that noise of the tracker is no motion.

@@ -42,7 +42,7 @@ struct HandInDevice {
   std::int64_t told_sequence = -1;
   std::int64_t sequence = 0;
   double owed = 0.0;     // J: work of the hand against force that was withheld, as far as it has not been lifted again
-  double lifts = 1.0;    // J, for which the hand may be lifted; many interruptions use it up
+  double lifts = 0.0;    // J, for which the hand may be lifted; a server that begins anew has earned none
   double taken = 0.0;    // `SafeCommand::taken` of the last command
   contact::Wrench pull;  // of other hands in the last command
   contact::Wrench solved;           // of the contacts when they last had a solution

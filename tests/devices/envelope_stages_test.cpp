@@ -1,6 +1,7 @@
 /// The stages of the safety envelope, one by one.
 
 #include <chrono>
+#include <functional>
 
 #include <gtest/gtest.h>
 
@@ -131,18 +132,47 @@ TEST(RateLimit, MaximumForceFallsToZeroWithin15Periods) {
   EXPECT_TRUE(reasons.rate_limited);
 }
 
-TEST(LinkDelay, IsTheSmallestAgeOfHalfASecondAndIgnoresSilence) {
-  LinkDelay delay;
-  const auto observe = [&](int from_ms, int until_ms, milliseconds age) {
-    for (int ms = from_ms; ms < until_ms; ++ms)
-      delay.observe(age, milliseconds(ms));
-  };
-  observe(1000, 1400, milliseconds(20));
-  EXPECT_EQ(delay.least(), milliseconds(0)) << "not yet known";
-  observe(1400, 2600, milliseconds(20));
-  EXPECT_EQ(delay.least(), milliseconds(20));
-  observe(2600, 4000, milliseconds(200));
-  EXPECT_EQ(delay.least(), milliseconds(0));
+/// Seconds of ages, one a millisecond.
+void observe(LinkDelay& delay, double seconds, const std::function<milliseconds(int)>& age) {
+  for (int ms = 0; ms < static_cast<int>(1000.0 * seconds); ++ms)
+    delay.observe(age(ms), 1e-3);
+}
+
+TEST(LinkDelay, IsThatOfASteadyLinkAndIgnoresSilence) {
+  LinkDelay delay(1e-3);
+  observe(delay, 1.0, [](int) { return milliseconds(20); });
+  EXPECT_EQ(delay.upper_quartile(), milliseconds(20));
+  observe(delay, 1.0, [](int) { return milliseconds(200); });
+  EXPECT_EQ(delay.upper_quartile(), milliseconds(20));
+}
+
+TEST(LinkDelay, StandsStillWhileSomeCommandsComeEarlyOrLate) {
+  LinkDelay delay(1e-3);
+  observe(delay, 1.0, [](int) { return milliseconds(2); });
+  for (int second = 0; second < 10; ++second) {
+    observe(delay, 1.0, [](int ms) { return milliseconds(ms % 10 == 0 ? 0 : ms % 10 == 5 ? 30 : 2); });
+    EXPECT_NEAR(1e-6 * static_cast<double>(delay.upper_quartile().count()), 2.0, 0.02);
+  }
+}
+
+TEST(LinkDelay, IsThatOfTheLaterHalfWhereAgesAlternate) {
+  LinkDelay delay(1e-3);
+  observe(delay, 20.0, [](int ms) { return milliseconds(ms % 2 == 0 ? 1 : 4); });
+  EXPECT_NEAR(1e-6 * static_cast<double>(delay.upper_quartile().count()), 4.0, 0.02);
+}
+
+TEST(LinkDelay, ChangesTheLagOfASpringByLessThanAPercentInAPeriod) {
+  for (const double period_s : {1e-3, 10e-3}) {
+    LinkDelay delay(period_s);
+    delay.observe(milliseconds(0), period_s);
+    double lag_s = 0.5 * period_s;
+    for (int i = 0; i < 1000; ++i) {
+      delay.observe(milliseconds(i < 500 ? 100 : 0), period_s);
+      const double now_s = 0.5 * period_s + std::chrono::duration<double>(delay.upper_quartile()).count();
+      ASSERT_NEAR(now_s / lag_s, 1.0, 0.01) << i;
+      lag_s = now_s;
+    }
+  }
 }
 
 }  // namespace

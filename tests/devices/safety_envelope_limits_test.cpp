@@ -139,6 +139,29 @@ TEST_F(Envelope, LimitsTheMeanForce) {
   EXPECT_TRUE(safe.reasons().mean_limited);
 }
 
+TEST(SafetyEnvelope, MeanForceIsReachedByLessThanAPercentInAPeriod) {
+  for (const double rate : {1000.0, 500.0, 100.0, 30.0}) {
+    for (const double share : {0.5, 0.3, 0.1, 0.05}) {
+      DeviceDescriptor warm = kDevice;
+      warm.update_rate = rate;
+      warm.max_mean_force = share * warm.max_force;
+      SafetyEnvelope envelope(warm);
+      GloveState state;
+      GloveCommand pull;
+      pull.f_H_W.x() = warm.max_force;
+      double last = 0.0;
+      for (int i = 1; i < 60.0 * rate; ++i) {
+        state.sequence = pull.sequence = pull.state_sequence = i;
+        state.time = pull.state_time = nanoseconds(static_cast<std::int64_t>(1e9 * i / rate));
+        const double force = envelope.limit(pull, state, state.time).values().f_H_W.x();
+        ASSERT_GE(force, 0.99 * last) << rate << " Hz, mean " << share << ", period " << i;
+        last = force;
+      }
+      EXPECT_NEAR(last, warm.max_mean_force, 0.01 * warm.max_mean_force) << rate << " Hz, mean " << share;
+    }
+  }
+}
+
 // `passivity_test` has the reason: what cannot fall soon would go on giving energy.
 TEST(SafetyEnvelope, LowMaximumForceRateLowersTheMaximumForce) {
   DeviceDescriptor device = kDevice;
@@ -151,6 +174,8 @@ TEST(SafetyEnvelope, LowMaximumForceRateLowersTheMaximumForce) {
 TEST(SafetyEnvelope, RefusesADescriptorThatIsNotValid) {
   DeviceDescriptor broken = kDevice;
   broken.max_force = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(SafetyEnvelope{broken}, std::invalid_argument);
+  broken.max_force = 1e300;  // its square would overflow
   EXPECT_THROW(SafetyEnvelope{broken}, std::invalid_argument);
 }
 

@@ -183,6 +183,12 @@ class SunkenHand : public Kernel {
       EXPECT_TRUE(tick(sinking_hand(i), set).is_unsolved);
   }
 
+  /// Saves the energy of a lift.
+  void serve_for_a_second() {
+    for (int i = 0; i < 1000; ++i)
+      tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
+  }
+
   void press() {
     tick(hand_at({0.0, 0.0, 0.5}), floor_below(0.0));
     settle(hand_at({0.0, 0.0, 0.498}), floor_below(0.0));
@@ -203,8 +209,15 @@ class SunkenHand : public Kernel {
 };
 
 TEST_F(SunkenHand, SupplyIsTheWorkOfTheReturningForce) {
+  serve_for_a_second();
   sink();
   EXPECT_NEAR(lift(), 0.5 * (2.0 + 12.0) * 10e-3, 2e-3) << "the work that the force would have taken";
+}
+
+// Servers that take over again and again would else give 1 J each.
+TEST_F(SunkenHand, IsLiftedByAFreshServerWithNoMoreThanATenthOfAWatt) {
+  sink();
+  EXPECT_LT(lift(), 0.1 * 1e-9 * static_cast<double>(now_.count()));
 }
 
 TEST_F(SunkenHand, SupplyIsTheWorkOfTheLastForceIfRowsHadNoSolution) {

