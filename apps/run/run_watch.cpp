@@ -113,7 +113,7 @@ void RunWatch::tell_loss(std::size_t number, std::vector<TimedSentence>& sentenc
   const bool is_silent = hand.reasons.is_state_old && hand.state_age > kLost;
   if (is_silent && !std::exchange(told.is_lost, true)) {
     told.lost_at = state.time;
-    sentences.push_back({state.time, name_of(told) + " is lost: no state for 0.5 s"});
+    sentences.push_back({state.time, name_of(told) + " is lost: its newest state was measured 0.5 s ago"});
   }
   if (!hand.reasons.is_state_old && std::exchange(told.is_lost, false)) {
     const double lost_s = in_seconds(state.time - told.lost_at + kLost);

@@ -31,16 +31,25 @@ std::optional<std::string> softer_beside(const devices::DeviceDescriptor& device
          ": limited by the rotational stiffness that it renders passively";
 }
 
+bool has_joints(const devices::DeviceDescriptor& device) {
+  for (std::size_t j = 0; j < hands::kJoints; ++j)
+    if (device.joint_lower[j] != device.joint_upper[j]) return true;
+  return false;
+}
+
 }  // namespace
 
-std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
-                                        std::chrono::nanoseconds period) {
+std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
+                                           std::chrono::nanoseconds period) {
   std::vector<std::string> sentences;
   const contact::CouplingStiffness wanted = stiffness_of(choice, 1.0);
   const auto add = [&sentences](const std::string& sentence) {
     if (std::find(sentences.begin(), sentences.end(), sentence) == sentences.end()) sentences.push_back(sentence);
   };
   for (const Grip& grip : grips) {
+    if (grip.fingers && !has_joints(grip.device))
+      add("device " + in_quotes(grip.device.name) +
+          ": it tells of no joint (joint_lower, joint_upper), so its hand may not close and grasp");
     if (grip.device.max_force == 0.0) continue;  // the hand feels no force of contacts
     const double stiffness = haptics::coupling_for(grip.device, wanted, period).stiffness.translational;
     constexpr double kNearly = 1.0 - 1e-3;

@@ -24,10 +24,11 @@ struct Grip {
   std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 
-/// The devices among these with which contacts are softer than chosen, also for a hand 0.1 m beside the reference point
-/// of its part, each in a sentence with the reason. The delay of a link does not count.
-std::vector<std::string> softer_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
-                                        std::chrono::nanoseconds period);
+/// What these devices cannot do, each in a sentence with the reason: contacts are softer than chosen, also for a hand
+/// 0.1 m beside the reference point of its part (the delay of a link does not count); a hand with fingers has no
+/// joints.
+std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
+                                           std::chrono::nanoseconds period);
 
 /// Starts the simulation. A part has the chosen stiffness, lowered to the limits of all devices: each may come to hold
 /// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part

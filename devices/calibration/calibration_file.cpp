@@ -98,7 +98,7 @@ class CalibrationFile {
 };
 
 void add_number(YAML::Emitter& out, const char* key, double number) {
-  out << YAML::Key << key << YAML::Value << files::exact_number(number);
+  out << YAML::Key << key << YAML::Value << files::exact_number(number + 0.0);  // 0 without a sign
 }
 
 void add_tracker(YAML::Emitter& out, const Eigen::Isometry3d& X_TH) {

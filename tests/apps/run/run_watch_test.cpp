@@ -93,7 +93,8 @@ TEST_F(Watch, TellsThatAGloveIsLostAndBack) {
   hand.state_age = milliseconds(1);
   run(milliseconds(1000));
   EXPECT_THAT(told_, ElementsAre(HasSubstr("0.100 s: glove 2: no force: the glove's state is"),
-                                 "0.699 s: glove 2 is lost: no state for 0.5 s", "2.199 s: glove 2 is back after 2.0 s",
+                                 "0.699 s: glove 2 is lost: its newest state was measured 0.5 s ago",
+                                 "2.199 s: glove 2 is back after 2.0 s",
                                  "2.699 s: glove 2: the force returns after 2.00 s (at 2.100 s)"));
 }
 

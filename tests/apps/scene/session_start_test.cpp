@@ -31,9 +31,9 @@ TEST(SessionStart, TellsWhichDeviceMakesContactsSofterAndWhy) {
   devices::DeviceDescriptor weak = devices::simulated_glove_descriptor();
   weak.name = "weak";
   weak.max_stiffness = 500.0;
-  EXPECT_THAT(softer_devices({{devices::simulated_glove_descriptor()}}, {}, milliseconds(1)), IsEmpty());
+  EXPECT_THAT(limits_of_devices({{devices::simulated_glove_descriptor()}}, {}, milliseconds(1)), IsEmpty());
   EXPECT_THAT(
-      softer_devices({{weak}, {device_with_damping(0.3)}}, {}, milliseconds(1)),
+      limits_of_devices({{weak}, {device_with_damping(0.3)}}, {}, milliseconds(1)),
       ElementsAre(AllOf(HasSubstr("weak"), HasSubstr("500 N/m instead of 1000"), HasSubstr("largest stiffness")),
                   AllOf(HasSubstr("600 N/m"), HasSubstr("passive"))));
 }
@@ -41,11 +41,19 @@ TEST(SessionStart, TellsWhichDeviceMakesContactsSofterAndWhy) {
 TEST(SessionStart, DeviceWithoutRotationalDampingIsReportedAsSoftBesideTheReferencePoint) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
   device.rotational_damping = 0.0;
-  EXPECT_THAT(softer_devices({{device}}, {}, milliseconds(1)),
+  EXPECT_THAT(limits_of_devices({{device}}, {}, milliseconds(1)),
               ElementsAre(AllOf(HasSubstr("0.1 m beside the reference point"), HasSubstr("instead of 1000"),
                                 HasSubstr("rotational stiffness"))));
   device.max_force = 0.0;
-  EXPECT_THAT(softer_devices({{device}}, {}, milliseconds(1)), IsEmpty()) << "contacts exert nothing on the hand";
+  EXPECT_THAT(limits_of_devices({{device}}, {}, milliseconds(1)), IsEmpty()) << "contacts exert nothing on the hand";
+}
+
+TEST(SessionStart, HandWhoseGloveHasNoJointsIsReported) {
+  Grip grip{devices::simulated_glove_descriptor()};
+  grip.fingers.emplace();
+  EXPECT_THAT(limits_of_devices({grip}, {}, milliseconds(1)), IsEmpty());
+  grip.device.joint_lower = grip.device.joint_upper = {};
+  EXPECT_THAT(limits_of_devices({grip}, {}, milliseconds(1)), ElementsAre(HasSubstr("no joint")));
 }
 
 TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
@@ -63,8 +71,8 @@ TEST(SessionStart, TheChosenStiffnessIsLoweredToThatOfTheDevice) {
   EXPECT_DOUBLE_EQ(stiffness_with(50.0).translational, 50.0);
   EXPECT_DOUBLE_EQ(stiffness_with(2.0 * largest).translational, largest);
   EXPECT_DOUBLE_EQ(stiffness_with(50.0).rotational / stiffness_with(100.0).rotational, 0.5);
-  EXPECT_THAT(softer_devices({glove}, {.stiffness_N_per_m = 50.0}, milliseconds(1)), IsEmpty());
-  EXPECT_THAT(softer_devices({glove}, {.stiffness_N_per_m = 2.0 * largest}, milliseconds(1)),
+  EXPECT_THAT(limits_of_devices({glove}, {.stiffness_N_per_m = 50.0}, milliseconds(1)), IsEmpty());
+  EXPECT_THAT(limits_of_devices({glove}, {.stiffness_N_per_m = 2.0 * largest}, milliseconds(1)),
               ElementsAre(HasSubstr("0.1 m beside the reference point"), HasSubstr("4000 N/m instead of 8000")));
   for (const double wrong : {9.0, 1.1e5})
     test_support::expect_bad_input([&] { stiffness_with(wrong); }, {"--stiffness", "between 10 and 100000"});
