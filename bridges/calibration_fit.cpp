@@ -12,7 +12,6 @@ namespace {
 
 using devices::GloveState;
 using devices::JointCalibration;
-using hands::kCalibrationPoses;
 
 constexpr std::size_t kFewestStates = 15;  // five for each third
 /// A wearer can hold a finger stiller than this, and a finger on its way turns farther within a second.
@@ -89,7 +88,7 @@ JointData data_of(const std::array<HeldPose, kCalibrationPoses>& poses, std::siz
     const double reported = poses[p].angles[joint];
     data.reported_least = std::min(data.reported_least, reported);
     data.reported_most = std::max(data.reported_most, reported);
-    const hands::CalibrationPose& pose = hands::calibration_poses()[p];
+    const CalibrationPose& pose = calibration_poses()[p];
     if (!pose.angles[joint]) continue;
     data.points.push_back({.x = reported, .y = *pose.angles[joint], .tolerance = pose.tolerance});
     data.poses.push_back(p);
@@ -125,7 +124,7 @@ Line line_of(const JointData& data, std::size_t joint, std::vector<std::string>&
                            " do not follow the poses: is its sensor turned round, or was a pose left out?");
   for (std::size_t i = 0; i < data.points.size(); ++i) {
     const double error = std::abs(line->error(data.points[i]));
-    const std::string what = "in the pose '" + std::string(hands::calibration_poses()[data.poses[i]].name) + "', " +
+    const std::string what = "in the pose '" + std::string(calibration_poses()[data.poses[i]].name) + "', " +
                              name_of(joint) + " is " + degrees_text(error) + " from what the other poses tell";
     if (error > kGross * data.points[i].tolerance) throw CalibrationError(what);
     if (error > kRemarkable * data.points[i].tolerance) remarks.push_back(what + ", and does not count");

@@ -11,9 +11,9 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/bridges/calibration_poses.h>
 #include <glissade/devices/calibration.h>
 #include <glissade/devices/glove_device.h>
-#include <glissade/hands/calibration_poses.h>
 
 namespace glissade::bridges {
 
@@ -44,7 +44,6 @@ struct JointFits {
 /// least absolute errors. So a pose that the wearer shows differently does not matter. A joint whose angle is the same
 /// in all poses gets an offset only. A joint that the device does not measure, i.e. whose angle never changed, and the
 /// joints of `without` get no calibration. Throws CalibrationError with a sentence for each joint whose data are bad.
-JointFits fit_joints(const std::array<HeldPose, hands::kCalibrationPoses>& poses,
-                     const std::vector<std::string>& without);
+JointFits fit_joints(const std::array<HeldPose, kCalibrationPoses>& poses, const std::vector<std::string>& without);
 
 }  // namespace glissade::bridges

@@ -2,8 +2,8 @@
 #include <cmath>
 #include <utility>
 
+#include <glissade/bridges/calibration_poses.h>
 #include <glissade/bridges/guided_calibration.h>
-#include <glissade/hands/calibration_poses.h>
 
 namespace glissade::bridges {
 namespace {
@@ -26,7 +26,7 @@ class Guide {
       : glove_(glove), info_(info), options_(options), clock_(clock), goes_on_(goes_on), voice_(voice) {}
 
   GuidedCalibration calibrate() {
-    std::array<HeldPose, hands::kCalibrationPoses> poses;
+    std::array<HeldPose, kCalibrationPoses> poses;
     for (std::size_t p = 0; p < poses.size(); ++p)
       poses[p] = shown(p);
     JointFits fits = fit_joints(poses, options_.without);
@@ -40,8 +40,8 @@ class Guide {
 
  private:
   HeldPose shown(std::size_t p) {
-    const hands::CalibrationPose& pose = hands::calibration_poses()[p];
-    const std::string number = std::to_string(p + 1) + " of " + std::to_string(hands::kCalibrationPoses);
+    const CalibrationPose& pose = calibration_poses()[p];
+    const std::string number = std::to_string(p + 1) + " of " + std::to_string(kCalibrationPoses);
     voice_.say("pose " + number + ", " + std::string(pose.name) + ": " + std::string(pose.guidance));
     for (int tries = 1;; ++tries) {
       count_down(options_.pause, "take the pose: ");

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include <glissade/base/byte_order.h>
-#include <glissade/collision/dop_tree_cache.h>
+#include <glissade/collision/dop_tree.h>
 
 #include "tree/content_hash.h"
 #include "tree/dop_tree_build.h"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include <glissade/collision/dual_tree_traversal.h>
+#include <glissade/collision/dop_query.h>
 
 #include "query/dop_traversal.h"
 #include "query/pair_visitors.h"

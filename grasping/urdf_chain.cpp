@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include <glissade/grasping/urdf_chain.h>
+#include <glissade/grasping/kinematic_chain.h>
 
 #include "urdf/urdf_document.h"
 #include "urdf/urdf_geometry.h"

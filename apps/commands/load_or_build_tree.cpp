@@ -4,7 +4,7 @@
 #include <glissade/apps/commands/load_or_build_tree.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/wait_notice.h>
-#include <glissade/collision/dop_tree_cache.h>
+#include <glissade/collision/dop_tree.h>
 
 namespace glissade::apps {
 

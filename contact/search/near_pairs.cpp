@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include <glissade/collision/dual_tree_traversal.h>
+#include <glissade/collision/dop_query.h>
 
 #include "certificate/obb_access.h"
 #include "certificate/separating_planes.h"

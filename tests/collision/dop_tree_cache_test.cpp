@@ -20,7 +20,7 @@
 #include <sys/stat.h>
 
 #include <glissade/base/byte_order.h>
-#include <glissade/collision/dop_tree_cache.h>
+#include <glissade/collision/dop_tree.h>
 #include <glissade/geometry/mesh_generators.h>
 
 #include "expect_bad_input.h"

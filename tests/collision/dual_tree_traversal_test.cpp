@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/collision/dual_tree_traversal.h>
+#include <glissade/collision/dop_query.h>
 #include <glissade/geometry/mesh_generators.h>
 
 #include "allocation_counter.h"

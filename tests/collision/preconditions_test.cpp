@@ -7,7 +7,6 @@
 
 #include <glissade/collision/convex_hull.h>
 #include <glissade/collision/dop_tree.h>
-#include <glissade/collision/dop_tree_cache.h>
 #include <glissade/collision/query_types.h>
 #include <glissade/collision/world.h>
 #include <glissade/geometry/mesh_generators.h>

@@ -14,7 +14,7 @@
 
 #include <glissade/base/byte_order.h>
 #include <glissade/collision/dop_query.h>
-#include <glissade/collision/dop_tree_cache.h>
+#include <glissade/collision/dop_tree.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/reference/brute_force.h>
 

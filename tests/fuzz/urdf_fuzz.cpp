@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <glissade/grasping/urdf_chain.h>
+#include <glissade/grasping/kinematic_chain.h>
 
 #include "fuzz_target.h"
 #include "temporary_folder.h"

@@ -13,7 +13,7 @@
 
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/clasp.h>
-#include <glissade/grasping/urdf_chain.h>
+#include <glissade/grasping/kinematic_chain.h>
 
 #include "clasped_hand.h"
 #include "poses.h"

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <glissade/geometry/mesh_topology.h>
-#include <glissade/grasping/urdf_chain.h>
+#include <glissade/grasping/kinematic_chain.h>
 
 #include "enclosed_volume.h"
 #include "expect_bad_input.h"

@@ -15,11 +15,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <glissade/bridges/calibration_poses.h>
 #include <glissade/bridges/opengloves_emulator.h>
 #include <glissade/bridges/opengloves_wire.h>
 #include <glissade/devices/hand_pose.h>
 #include <glissade/devices/lcm_glove.h>
-#include <glissade/hands/calibration_poses.h>
 
 #include "glissade_program.h"
 #include "temporary_folder.h"
@@ -66,7 +66,7 @@ class CalibrateProcess : public testing::Test {
     test_support::Process command({GLISSADE_PROGRAM, "calibrate", "--lcm", test_support::kUrl, "--user", "anna",
                                    "--out", out, "--pause-s", "1", "--hold-s", "0.5"});
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    for (std::size_t asked = 1; asked <= hands::kCalibrationPoses;) {
+    for (std::size_t asked = 1; asked <= bridges::kCalibrationPoses;) {
       std::this_thread::sleep_for(milliseconds(5));
       const std::string said = command.standard_error();
       if (said.find("pose " + std::to_string(asked) + " of 7") != std::string::npos) pose = asked++ - 1;

@@ -16,7 +16,6 @@
 namespace glissade::bridges {
 namespace {
 
-using hands::kCalibrationPoses;
 using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -36,7 +35,7 @@ using Poses = std::array<HeldPose, kCalibrationPoses>;
 Poses exact_poses(const WrongSensors& sensors) {
   Poses poses;
   for (std::size_t p = 0; p < kCalibrationPoses; ++p) {
-    poses[p].angles = sensors.reported(hands::posture_of(hands::calibration_poses()[p]));
+    poses[p].angles = sensors.reported(posture_of(calibration_poses()[p]));
     for (std::size_t j = 0; j < poses[p].angles.size(); ++j) {
       poses[p].least[j] = poses[p].angles[j] - 0.01;
       poses[p].most[j] = poses[p].angles[j] + 0.01;

@@ -32,7 +32,7 @@ class GuidedCalibrationTest : public testing::Test {
   hands::JointValues posture(double seconds) const {
     const double time = seconds - 1.0 - late;
     const auto pose = static_cast<std::size_t>(std::clamp(time / (kPause_s + kHold_s), 0.0, 6.0));
-    return hands::posture_of(hands::calibration_poses()[pose]);
+    return posture_of(calibration_poses()[pose]);
   }
 
   std::optional<GuidedCalibration> calibrate() {
@@ -68,18 +68,18 @@ TEST_F(GuidedCalibrationTest, CalibratesAGloveWithWrongSensors) {
   EXPECT_EQ(result->calibration.device, "glove");
   EXPECT_EQ(result->calibration.side, hands::HandSide::kRight);
   devices::GloveState state;
-  const hands::JointValues fist = hands::posture_of(hands::calibration_poses()[1]);
+  const hands::JointValues fist = posture_of(calibration_poses()[1]);
   state.joint_angles = glove.sensors.reported(fist);
   result->calibration.apply(state);
   for (std::size_t j = 0; j < hands::kJoints; ++j) {
-    if (hands::calibration_poses()[1].angles[j])
+    if (calibration_poses()[1].angles[j])
       EXPECT_NEAR(state.joint_angles[j], fist[j], 0.02) << hands::kJointNames[j] << ": noise of 1 deg, a mean of many";
   }
 }
 
 TEST_F(GuidedCalibrationTest, AsksForEachPoseWithACountdown) {
   ASSERT_TRUE(calibrate());
-  ASSERT_EQ(said.size(), hands::kCalibrationPoses);
+  ASSERT_EQ(said.size(), kCalibrationPoses);
   EXPECT_THAT(said.front(), HasSubstr("pose 1 of 7, flat: Lay the hand flat"));
   EXPECT_THAT(said.back(), HasSubstr("pose 7 of 7, spread"));
   EXPECT_THAT(shown, Contains("take the pose: 3"));

@@ -7,9 +7,9 @@
 #include <functional>
 #include <random>
 
+#include <glissade/bridges/calibration_poses.h>
 #include <glissade/devices/calibration.h>
 #include <glissade/devices/glove_device.h>
-#include <glissade/hands/calibration_poses.h>
 #include <glissade/realtime/clock.h>
 
 namespace glissade::bridges {

@@ -12,7 +12,7 @@
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/grasping/urdf_chain.h>
+#include <glissade/grasping/kinematic_chain.h>
 #include <glissade/realtime/triple_buffer.h>
 #include <glissade/simulation/scene.h>
 

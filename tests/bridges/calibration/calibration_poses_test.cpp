@@ -5,17 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/bridges/calibration_poses.h>
 #include <glissade/grasping/hand_conversions.h>
 #include <glissade/grasping/hand_model.h>
-#include <glissade/hands/calibration_poses.h>
 
-namespace glissade::grasping {
+namespace glissade::bridges {
 namespace {
 
 constexpr std::size_t kTipOfThumb = 5;
 
 TEST(CalibrationPoses, AreWithinTheRangesOfAHand) {
-  for (const hands::CalibrationPose& pose : hands::calibration_poses()) {
+  for (const CalibrationPose& pose : calibration_poses()) {
     for (std::size_t j = 0; j < hands::kJoints; ++j) {
       if (!pose.angles[j]) continue;
       const double degrees = *pose.angles[j] * 180.0 / M_PI;
@@ -27,17 +27,17 @@ TEST(CalibrationPoses, AreWithinTheRangesOfAHand) {
 
 /// The skin of the tips is a sphere round the joint `tip` of OpenXR. Fingertips yield by some millimetres.
 TEST(CalibrationPoses, BringTheTipOfTheThumbToTheTipOfEachFinger) {
-  const HandModel hand = make_hand();
+  const grasping::HandModel hand = grasping::make_hand();
   const std::array<std::pair<const char*, std::size_t>, 4> tips{
       {{"thumb to index", 10}, {"thumb to middle", 15}, {"thumb to ring", 20}, {"thumb to little", 25}}};
   for (const auto& [name, tip] : tips) {
     std::size_t p = 0;
-    while (hands::calibration_poses()[p].name != name)
+    while (calibration_poses()[p].name != name)
       ++p;
-    const HandPose pose{.values = hands::posture_of(hands::calibration_poses()[p])};
-    const OpenXrJoints joints = to_openxr(hand, pose);
-    const OpenXrJoint& thumb = joints[kTipOfThumb];
-    const OpenXrJoint& finger = joints[tip];
+    const grasping::HandPose pose{.values = posture_of(calibration_poses()[p])};
+    const grasping::OpenXrJoints joints = grasping::to_openxr(hand, pose);
+    const grasping::OpenXrJoint& thumb = joints[kTipOfThumb];
+    const grasping::OpenXrJoint& finger = joints[tip];
     const double distance = (thumb.X_WOpenXr.translation() - finger.X_WOpenXr.translation()).norm();
     EXPECT_NEAR(distance, thumb.radius + finger.radius, 0.009) << name;
   }
@@ -49,7 +49,7 @@ TEST(CalibrationPoses, TellTheGainsOfThumbAndFingers) {
     const bool is_straight_in_all = hands::kJointNames[j].starts_with("wrist");
     double least = 10.0;
     double most = -10.0;
-    for (const hands::CalibrationPose& pose : hands::calibration_poses()) {
+    for (const CalibrationPose& pose : calibration_poses()) {
       least = std::min(least, pose.angles[j].value_or(least));
       most = std::max(most, pose.angles[j].value_or(most));
     }
@@ -58,4 +58,4 @@ TEST(CalibrationPoses, TellTheGainsOfThumbAndFingers) {
 }
 
 }  // namespace
-}  // namespace glissade::grasping
+}  // namespace glissade::bridges

@@ -8,7 +8,7 @@
 
 #include <glissade/hands/hand.h>
 
-namespace glissade::hands {
+namespace glissade::bridges {
 
 inline constexpr std::size_t kCalibrationPoses = 7;
 
@@ -17,8 +17,8 @@ struct CalibrationPose {
   std::string_view name;
   std::string_view guidance;  ///< a sentence for the wearer
   double tolerance;           ///< rad; by how much the angles of wearers who show the pose may differ
-  /// In the order of `kJointNames`, rad; no value for a joint that the pose does not determine.
-  std::array<std::optional<double>, kJoints> angles;
+  /// In the order of `hands::kJointNames`, rad; no value for a joint that the pose does not determine.
+  std::array<std::optional<double>, hands::kJoints> angles;
 };
 
 /// Flat, fist, the thumb to the tip of each finger, spread. In the poses of the thumb, the tips of a hand of usual size
@@ -26,6 +26,6 @@ struct CalibrationPose {
 const std::array<CalibrationPose, kCalibrationPoses>& calibration_poses();
 
 /// The whole posture of a hand that shows a pose; joints that the pose does not determine are straight.
-JointValues posture_of(const CalibrationPose& pose);
+hands::JointValues posture_of(const CalibrationPose& pose);
 
-}  // namespace glissade::hands
+}  // namespace glissade::bridges

@@ -1,67 +1,62 @@
 #include <algorithm>
-#include <numbers>
 #include <string>
 
-#include <glissade/hands/calibration_poses.h>
+#include <glissade/bridges/calibration_poses.h>
 
-namespace glissade::hands {
+#include "calibration/degrees.h"
+
+namespace glissade::bridges {
 namespace {
-
-constexpr double radians(double degrees) {
-  return degrees * std::numbers::pi / 180.0;
-}
 
 // Chosen. A flat hand, a fist and spread fingers are much the same for all wearers. A fingertip can touch the thumb
 // with joints that are bent in many ways.
 constexpr double kExact = radians(10.0);
 constexpr double kVague = radians(25.0);
 
-constexpr std::array<std::string_view, 4> kFingers{"index", "middle", "ring", "little"};
+constexpr std::array<std::string_view, 4> kFingerNames{"index", "middle", "ring", "little"};
 
-/// Degrees.
-struct Thumb {
+struct ThumbDegrees {
   double roll;
   double mcp;
   double ip;
   double abduction;
 };
 
-/// Degrees.
-struct Finger {
+struct FingerDegrees {
   double mcp;
   double pip;
   double dip;
 };
 
 void set(CalibrationPose& pose, std::string_view joint, double degrees) {
-  const auto* const found = std::find(kJointNames.begin(), kJointNames.end(), joint);
-  pose.angles[static_cast<std::size_t>(found - kJointNames.begin())] = radians(degrees);
+  const auto* const found = std::find(hands::kJointNames.begin(), hands::kJointNames.end(), joint);
+  pose.angles[static_cast<std::size_t>(found - hands::kJointNames.begin())] = radians(degrees);
 }
 
-void set(CalibrationPose& pose, const Thumb& thumb) {
+void set(CalibrationPose& pose, const ThumbDegrees& thumb) {
   set(pose, "thumb_roll", thumb.roll);
   set(pose, "thumb_mcp", thumb.mcp);
   set(pose, "thumb_ip", thumb.ip);
   set(pose, "thumb_index_abduction", thumb.abduction);
 }
 
-void set(CalibrationPose& pose, std::string_view name, const Finger& finger) {
+void set(CalibrationPose& pose, std::string_view name, const FingerDegrees& finger) {
   set(pose, std::string(name) + "_mcp", finger.mcp);
   set(pose, std::string(name) + "_pip", finger.pip);
   set(pose, std::string(name) + "_dip", finger.dip);
 }
 
-CalibrationPose with_all_fingers(std::string_view name, std::string_view guidance, const Thumb& thumb,
-                                 const Finger& fingers) {
+CalibrationPose with_all_fingers(std::string_view name, std::string_view guidance, const ThumbDegrees& thumb,
+                                 const FingerDegrees& fingers) {
   CalibrationPose pose{name, guidance, kExact, {}};
   set(pose, thumb);
-  for (const std::string_view finger : kFingers)
+  for (const std::string_view finger : kFingerNames)
     set(pose, finger, fingers);
   return pose;
 }
 
-CalibrationPose thumb_to(std::string_view finger, std::string_view name, std::string_view guidance, const Thumb& thumb,
-                         const Finger& bent) {
+CalibrationPose thumb_to(std::string_view finger, std::string_view name, std::string_view guidance,
+                         const ThumbDegrees& thumb, const FingerDegrees& bent) {
   CalibrationPose pose{name, guidance, kVague, {}};
   set(pose, thumb);
   set(pose, finger, bent);
@@ -117,11 +112,11 @@ const std::array<CalibrationPose, kCalibrationPoses>& calibration_poses() {
   return poses;
 }
 
-JointValues posture_of(const CalibrationPose& pose) {
-  JointValues angles{};
+hands::JointValues posture_of(const CalibrationPose& pose) {
+  hands::JointValues angles{};
   std::transform(pose.angles.begin(), pose.angles.end(), angles.begin(),
                  [](const std::optional<double>& angle) { return angle.value_or(0.0); });
   return angles;
 }
 
-}  // namespace glissade::hands
+}  // namespace glissade::bridges
