@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <utility>
 
 #include <glissade/devices/safety_envelope.h>
 
@@ -80,8 +81,9 @@ struct SafetyEnvelope::Stages {
   EnergyLimit energy;
   FingerLimits finger_limits;
   HalfSpaceLimits half_spaces;
-  Forces wanted;  // newest finite one
-  Forces last;    // always finite
+  nanoseconds answered{0};  // time of the state that the last command answers
+  Forces wanted;            // newest finite one
+  Forces last;              // always finite
   bool is_stopped = false;
   bool has_been_called = false;
   nanoseconds last_call{0};
@@ -125,7 +127,8 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
   if (!reasons.not_finite) {
     safe.age_ = stages.check.age_of(wanted.state_time, now);
     safe.state_age_ = stages.check.age_of(state.time, now);
-    stages.link_delay.observe(safe.age_, dt);
+    const bool is_new = std::exchange(stages.answered, wanted.state_time) != wanted.state_time;
+    if (is_new) stages.link_delay.observe(safe.age_, !reasons.is_command_old, dt);
   }
   const bool is_fading = reasons.is_fading();
   if (is_finite(wanted)) {

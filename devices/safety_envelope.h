@@ -83,7 +83,8 @@ std::string to_text(const SafeCommand& command);
 /// `taken` restarts at 0, and the difference from the earlier `supply` does not count.
 ///
 /// A link delay does not make commands old if the whole round trip takes at most 150 ms: the delay that three of four
-/// commands keep (`link_delay`) is subtracted from the age of each command.
+/// commands keep (`link_delay`) is subtracted from the age of each command. What is left may be at most 150 ms, also
+/// for a device with longer periods.
 ///
 /// Force and torque have separate maxima, so that a device without torque still gives its force. But the axis of the
 /// wrench moves when one of them is at its maximum. The power limit scales force and torque by the same factor.
@@ -124,8 +125,8 @@ class SafetyEnvelope {
   /// The descriptor, with the maxima of force and torque lowered to what their rates allow.
   const DeviceDescriptor& descriptor() const noexcept;
 
-  /// The smallest age of a command in the last half second or longer. At the glove's end, it is the delay of the whole
-  /// round trip. 0 in the first half second, and for ages above 150 ms, which count as silence.
+  /// The upper quartile of the ages of new commands, followed at a bounded rate. At the glove's end, it is the delay of
+  /// the whole round trip. Ages above 150 ms count as silence.
   std::chrono::nanoseconds link_delay() const noexcept;
 
  private:

@@ -1,5 +1,7 @@
 /// The force fades where its basis is old, implausible or not permitted.
 
+#include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -40,6 +42,37 @@ TEST_F(Envelope, ACommandThatAnswersAnOldStateFadesAlthoughNewStatesCome) {
   };
   EXPECT_LE(periods_to_zero(next), 11);
   EXPECT_TRUE(next().reasons().is_command_old);
+}
+
+/// A glove whose newest command is `age(period)` periods old. Returns the last command.
+SafeCommand pulled_late(SafetyEnvelope& envelope, double rate, int periods, const std::function<int(int)>& age) {
+  const auto time = [rate](int period) { return nanoseconds(std::llround(1e9 * period / rate)); };
+  SafeCommand safe;
+  for (int i = 200; i < 200 + periods; ++i) {
+    GloveState state;
+    state.sequence = i;
+    state.time = time(i);
+    GloveCommand late = pull(5.0);
+    late.state_time = time(i - age(i));
+    safe = envelope.limit(late, state, state.time);
+  }
+  return safe;
+}
+
+// The coupling must know each delay with which a command acts, else it is too stiff.
+TEST(SafetyEnvelope, ASlowGloveObeysNoCommandThatIsTooOldToBeADelay) {
+  DeviceDescriptor slow = kDevice;
+  slow.update_rate = 30.0;
+  SafetyEnvelope envelope(slow, 6.0);
+  EXPECT_TRUE(is_zero(pulled_late(envelope, 30.0, 300, [](int) { return 5; }))) << "167 ms";
+  EXPECT_FALSE(is_zero(pulled_late(envelope, 30.0, 300, [](int) { return 4; }))) << "133 ms";
+  EXPECT_NEAR(1e-6 * static_cast<double>(envelope.link_delay().count()), 133.3, 0.1);
+}
+
+TEST(SafetyEnvelope, SilencesAreNoDelayOfTheLink) {
+  SafetyEnvelope envelope(kDevice, 6.0);
+  EXPECT_TRUE(is_zero(pulled_late(envelope, 1000.0, 20'100, [](int period) { return period % 150; })));
+  EXPECT_LE(envelope.link_delay(), milliseconds(1));
 }
 
 TEST_F(Envelope, ReportedAgeOfAnOldStateIsItsOwn) {
