@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include <glissade/apps/durations.h>
 #include <glissade/apps/scene/session_start.h>
 #include <glissade/apps/scene/start_overlap.h>
 #include <glissade/apps/text.h>
@@ -31,6 +32,21 @@ std::optional<std::string> softer_beside(const devices::DeviceDescriptor& device
          ": limited by the rotational stiffness that it renders passively";
 }
 
+/// The sentence about a link that delays by a period, if contacts are then less than half as stiff. Force and torque
+/// shrink alike.
+std::optional<std::string> softer_by_link(const devices::DeviceDescriptor& device,
+                                          const contact::CouplingStiffness& wanted, std::chrono::nanoseconds period) {
+  const double delay_s = std::max(in_seconds(period), 1.0 / device.update_rate);
+  const auto delay = std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(delay_s));
+  const contact::CouplingStiffness full = haptics::coupling_for(device, wanted, period).stiffness;
+  const contact::CouplingStiffness left = haptics::coupling_within_limits(device, full, period, delay).stiffness;
+  const double share = std::min(left.translational / full.translational, left.rotational / full.rotational);
+  if (share >= 0.5) return std::nullopt;
+  return "device " + in_quotes(device.name) + ": if the round trip of its link takes " + fixed_text(1e3 * delay_s, 1) +
+         " ms, contacts have " + rounded_text(share * full.translational) + " N/m instead of " +
+         rounded_text(full.translational) + ": the largest that is passive with the damping that it tells";
+}
+
 bool has_joints(const devices::DeviceDescriptor& device) {
   for (std::size_t j = 0; j < hands::kJoints; ++j)
     if (device.joint_lower[j] != device.joint_upper[j]) return true;
@@ -40,7 +56,7 @@ bool has_joints(const devices::DeviceDescriptor& device) {
 }  // namespace
 
 std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
-                                           std::chrono::nanoseconds period) {
+                                           std::chrono::nanoseconds period, bool has_links) {
   std::vector<std::string> sentences;
   const contact::CouplingStiffness wanted = stiffness_of(choice, 1.0);
   const auto add = [&sentences](const std::string& sentence) {
@@ -55,6 +71,7 @@ std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const
     constexpr double kNearly = 1.0 - 1e-3;
     if (const std::optional<std::string> sentence = softer_beside(grip.device, wanted, stiffness, period))
       add(*sentence);
+    if (const auto sentence = has_links ? softer_by_link(grip.device, wanted, period) : std::nullopt) add(*sentence);
     if (stiffness >= kNearly * wanted.translational) continue;
     const std::string reason =
         stiffness >= kNearly * grip.device.max_stiffness

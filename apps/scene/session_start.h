@@ -25,10 +25,10 @@ struct Grip {
 };
 
 /// What these devices cannot do, each in a sentence with the reason: contacts are softer than chosen, also for a hand
-/// 0.1 m beside the reference point of its part (the delay of a link does not count); a hand with fingers has no
-/// joints.
+/// 0.1 m beside the reference point of its part, or, with `has_links`, behind a link that delays by a period; a hand
+/// with fingers has no joints.
 std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
-                                           std::chrono::nanoseconds period);
+                                           std::chrono::nanoseconds period, bool has_links = false);
 
 /// Starts the simulation. A part has the chosen stiffness, lowered to the limits of all devices: each may come to hold
 /// it. All hands have fingers, or none. Throws std::invalid_argument, naming the scene, for a part

@@ -264,7 +264,7 @@ Session run_session(const HapticScene& scene, const std::shared_ptr<devices::Lcm
   const std::int64_t ticks = ticks_of(settings, period);
   grasping::GraspSimulation simulation =
       start_simulation(scene, grips, settings.choice, contact::real_time_rules(), period);
-  watch({.sentences = limits_of_devices(grips, settings.choice, period)});
+  watch({.sentences = limits_of_devices(grips, settings.choice, period, true)});
   const auto recorder = std::make_shared<SessionRecorder>(static_cast<std::size_t>(ticks > 0 ? ticks : kKept / period),
                                                           simulation.part_count(), settings.hands.size());
   RunWatch run_watch = watch_of(scene, settings);

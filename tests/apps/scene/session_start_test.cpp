@@ -17,9 +17,11 @@ namespace {
 
 using std::chrono::milliseconds;
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 devices::DeviceDescriptor device_with_damping(double damping) {
   devices::DeviceDescriptor device = devices::simulated_glove_descriptor();
@@ -46,6 +48,16 @@ TEST(SessionStart, DeviceWithoutRotationalDampingIsReportedAsSoftBesideTheRefere
                                 HasSubstr("rotational stiffness"))));
   device.max_force = 0.0;
   EXPECT_THAT(limits_of_devices({{device}}, {}, milliseconds(1)), IsEmpty()) << "contacts exert nothing on the hand";
+}
+
+TEST(SessionStart, DeviceWhoseLinkMakesContactsHalfAsStiffIsReported) {
+  devices::DeviceDescriptor stylus = devices::simulated_glove_descriptor();
+  stylus.update_rate = 500.0;
+  stylus.damping = 5.0;
+  stylus.rotational_damping = 0.0;  // the stiffness without a link is the largest; 1 ms of lag becomes 3 ms
+  const auto told = [&](bool has_links) { return limits_of_devices({{stylus}}, {}, milliseconds(1), has_links); };
+  EXPECT_THAT(told(false), Not(Contains(HasSubstr("round trip"))));
+  EXPECT_THAT(told(true), Contains(AllOf(HasSubstr("2.0 ms"), HasSubstr("333 N/m instead of 1000"))));
 }
 
 TEST(SessionStart, HandWhoseGloveHasNoJointsIsReported) {
