@@ -1,6 +1,6 @@
 #pragma once
 
-/// From what the sensors of a glove report in the poses of `hands/calibration_poses.h` to a calibration.
+/// From what the sensors of a glove report in the poses of `calibration_poses.h` to a calibration.
 
 #include <array>
 #include <optional>

@@ -68,7 +68,7 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
       {"limit_rate", descriptor.limit_rate},
       {"max_limit_stiffness", descriptor.max_limit_stiffness},
       {"tool_rate", descriptor.tool_rate}};
-  constexpr double kGreatest = 1e9;  // squares and products of greater ones may overflow
+  constexpr double kGreatest = 1e9;  // no device has more, and products of several such numbers are finite
   for (const auto& [field, value] : limits) {
     if (!(value >= 0.0 && value <= kGreatest)) return BadField{field, "must lie between 0 and 1e9", value};
   }
@@ -93,7 +93,7 @@ std::optional<BadField> first_bad_field(const DeviceDescriptor& descriptor) noex
     const double lower = descriptor.joint_lower[i];
     const double upper = descriptor.joint_upper[i];
     const bool is_absent = lower == 0.0 && upper == 0.0;
-    if (!std::isfinite(lower) || !std::isfinite(upper) || (lower >= upper && !is_absent)) {
+    if (!(std::abs(lower) <= kGreatest && std::abs(upper) <= kGreatest) || (lower >= upper && !is_absent)) {
       return BadField{hands::kJointNames[i], "needs a finite lower limit below a finite upper limit", lower};
     }
   }

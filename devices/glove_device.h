@@ -298,10 +298,10 @@ struct DeviceDescriptor {
   }
 };
 
-/// Throws std::invalid_argument, naming the device and the field, if a number is not finite; a `max_` limit,
-/// `workspace_radius` or a property of the bare device or of its limits is negative; a joint's lower limit is not below
-/// its upper limit, unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is negative; or `delay`,
-/// `limit_delay` or `tool_delay` is outside 0 to 1 s.
+/// Throws std::invalid_argument, naming the device and the field, if a number is not finite or its magnitude is above
+/// 1e9; a `max_` limit, `workspace_radius` or a property of the bare device or of its limits is negative; a joint's
+/// lower limit is not below its upper limit, unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is
+/// negative; or `delay`, `limit_delay` or `tool_delay` is outside 0 to 1 s.
 void validate(const DeviceDescriptor& descriptor);
 
 /// The lag (seconds) of a torque or force over the link behind the motion, for a loop with `period` and a link with

@@ -128,7 +128,7 @@ SafeCommand SafetyEnvelope::limit(const GloveCommand& wanted, const GloveState& 
     safe.age_ = stages.check.age_of(wanted.state_time, now);
     safe.state_age_ = stages.check.age_of(state.time, now);
     const bool is_new = std::exchange(stages.answered, wanted.state_time) != wanted.state_time;
-    if (is_new) stages.link_delay.observe(safe.age_, !reasons.is_command_old, dt);
+    if (is_new) stages.link_delay.observe(safe.age_, dt);
   }
   const bool is_fading = reasons.is_fading();
   if (is_finite(wanted)) {

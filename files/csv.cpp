@@ -78,11 +78,14 @@ std::vector<std::string> read_header(std::string_view line, const std::string& s
   const std::string table = told_table(line);
   std::string without_spaces(line);
   std::erase(without_spaces, ' ');
-  const char* const other =
-      with_angles(columns).empty() ? "" : " (or roll_deg,pitch_deg,yaw_deg in place of the quaternion)";
-  throw std::invalid_argument(at_line(source, 1) + ": the header row must be " + expected + other + ", not " +
-                              in_quotes(line) + (without_spaces == expected ? "; leave out the spaces" : "") +
-                              (table.empty() ? "" : "; this is " + table));
+  const std::vector<std::string> angles(kAngleColumns.begin(), kAngleColumns.end());
+  const std::string other =
+      with_angles(columns).empty() ? "" : " (or " + header_of(angles) + " in place of the quaternion)";
+  throw std::invalid_argument(
+      at_line(source, 1) + ": the header row must be " + expected + other + ", not " + in_quotes(line) +
+      (without_spaces == expected || without_spaces == header_of(with_angles(columns)) ? "; leave out the spaces"
+                                                                                       : "") +
+      (table.empty() ? "" : "; this is " + table));
 }
 
 /// Whether spaces are all that is wrong with a number.

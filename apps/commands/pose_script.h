@@ -6,8 +6,8 @@
 
 namespace glissade::apps {
 
-/// Shows each pose of `hands::calibration_poses` for this time. The hand changes its pose two fifths of the time after
-/// `glissade calibrate` has asked for it, because both programs need not start at the same moment.
+/// Shows each pose of `bridges::calibration_poses` for this time. The hand changes its pose two fifths of the time
+/// after `glissade calibrate` has asked for it, because both programs need not start at the same moment.
 HandScript pose_script(double seconds_per_pose);
 
 }  // namespace glissade::apps

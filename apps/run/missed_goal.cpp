@@ -82,8 +82,8 @@ std::string why_goal_is_missed(const SessionSummary& summary, const Session& ses
   for (std::size_t i = 0; i < samples.size(); ++i)
     old_ticks += samples.tick(i).contact_set_age > haptics::kFullForce ? 1 : 0;
   if (old_ticks > 0) causes.push_back("contacts were older than 20 ms for " + text_s(old_ticks));
-  return in_quotes(summary.parts.front().name) + " missed its goal by " + text_mm(summary.goal_distance_m) +
-         ", more than 2 mm or 2 degrees: " + joined(causes, "; ");
+  return in_quotes(summary.parts.front().name) + " missed its goal by " + text_mm(summary.goal_distance_m) + ": " +
+         joined(causes, "; ");
 }
 
 }  // namespace glissade::apps

@@ -65,7 +65,7 @@ std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const
   for (const Grip& grip : grips) {
     if (grip.fingers && !has_joints(grip.device))
       add("device " + in_quotes(grip.device.name) +
-          ": it tells of no joint (joint_lower, joint_upper), so its hand may not close and grasp");
+          ": it tells of no joint (joint_lower, joint_upper), so its hand can hardly close and grasp");
     if (grip.device.max_force == 0.0) continue;  // the hand feels no force of contacts
     const double stiffness = haptics::coupling_for(grip.device, wanted, period).stiffness.translational;
     constexpr double kNearly = 1.0 - 1e-3;

@@ -24,9 +24,9 @@ struct Grip {
   std::optional<grasping::HandShape> fingers{};  ///< of a hand that takes hold with its fingers
 };
 
-/// What these devices cannot do, each in a sentence with the reason: contacts are softer than chosen, also for a hand
-/// 0.1 m beside the reference point of its part, or, with `has_links`, behind a link that delays by a period; a hand
-/// with fingers has no joints.
+/// What these devices cannot do, each in a sentence with the reason: contacts are softer than chosen; they are less
+/// than half as stiff for a hand 0.1 m beside the reference point of its part or, with `has_links`, behind a link that
+/// delays by a period; a hand with fingers has no joints.
 std::vector<std::string> limits_of_devices(const std::vector<Grip>& grips, const SlidingChoice& choice,
                                            std::chrono::nanoseconds period, bool has_links = false);
 

@@ -27,8 +27,9 @@ struct EnvelopeSettings {
   // Link delay:
   double delay_follows_s = 0.25;  ///< time constant. Shorter: the force of a resting hand follows the scatter of ages
   double lag_change = 8e-3;       ///< in a period at most, as a share of the lag: so much a force may change by it
-  double finds_delay = 4.0;       ///< times as fast while commands seem too old for a force
-  std::chrono::milliseconds longest_delay{150};  ///< more is a silence, also for the patience of a slow device
+  double finds_delay =
+      4.0;  ///< times as fast until the first delay is found: till then, commands seem too old for a force
+  std::chrono::milliseconds longest_delay{150};  ///< more is a silence, and no older command acts
 
   // States:
   std::chrono::milliseconds distrust{100};        ///< no force for so long after an implausible state

@@ -16,12 +16,15 @@ class LinkDelay {
   explicit LinkDelay(double period_s) : period_s_(period_s) {}
 
   /// `age` of a new command in a call of the envelope, `dt` (seconds) after the last call. While a command stays away,
-  /// the one before grows old: that is no delay of the link. `acts`: the command is not too old for a force.
-  void observe(std::chrono::nanoseconds age, bool acts, double dt) noexcept {
+  /// the one before grows old: that is no delay of the link. If new commands come in one of several calls only, the
+  /// delay is followed as much slower.
+  void observe(std::chrono::nanoseconds age, double dt) noexcept {
     if (age < std::chrono::nanoseconds(0) || age > kEnvelope.longest_delay) return;  // that is a silence
+    const double change = in_seconds(age) - delay_s_;
     const double share = std::min(dt / kEnvelope.delay_follows_s, kEnvelope.lag_change * dt / period_s_);
-    const double step = (acts ? 1.0 : kEnvelope.finds_delay) * share * (delay_s_ + 0.5 * period_s_);
-    delay_s_ += std::clamp(in_seconds(age) - delay_s_, -step / 3.0, step);
+    const double step = (is_found_ ? 1.0 : kEnvelope.finds_delay) * share * (delay_s_ + 0.5 * period_s_);
+    is_found_ = is_found_ || change <= step;
+    delay_s_ += std::clamp(change, -step / 3.0, step);
   }
 
   std::chrono::nanoseconds upper_quartile() const noexcept {
@@ -31,6 +34,7 @@ class LinkDelay {
  private:
   double period_s_;
   double delay_s_ = 0.0;
+  bool is_found_ = false;  // it has reached the age of a command
 };
 
 }  // namespace glissade::devices

@@ -88,8 +88,9 @@ LimitReasons StateCheck::faults(const GloveCommand& wanted, const GloveState& ne
   if (reasons.not_finite) return reasons;  // no ages are known
   reasons.is_state_old = age_of(state_.time, now) > patience_;
   const bool is_from_future = wanted.state_time > state_.time;
-  reasons.is_command_old = !reasons.is_state_old &&
-                           (is_from_future || age_of(wanted.state_time, now) > link_delay + patience_for_commands());
+  // A command whose age does not count as a delay of the link must not act: its spring would be too stiff.
+  const nanoseconds oldest = std::min<nanoseconds>(link_delay + patience_, kEnvelope.longest_delay);
+  reasons.is_command_old = !reasons.is_state_old && (is_from_future || age_of(wanted.state_time, now) > oldest);
   return reasons;
 }
 

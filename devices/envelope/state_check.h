@@ -48,11 +48,6 @@ class StateCheck {
   bool may_have_gone_to(const GloveState& state) const noexcept;
 
   const DeviceDescriptor& descriptor_;
-  /// A command whose age would not count as a delay of the link must not act: its spring would be too stiff.
-  std::chrono::nanoseconds patience_for_commands() const noexcept {
-    return std::min<std::chrono::nanoseconds>(patience_, kEnvelope.longest_delay);
-  }
-
   std::chrono::nanoseconds patience_;
   bool has_state_ = false;
   GloveState state_;

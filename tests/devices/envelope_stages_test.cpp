@@ -135,7 +135,7 @@ TEST(RateLimit, MaximumForceFallsToZeroWithin15Periods) {
 /// Seconds of ages, one a millisecond.
 void observe(LinkDelay& delay, double seconds, const std::function<milliseconds(int)>& age) {
   for (int ms = 0; ms < static_cast<int>(1000.0 * seconds); ++ms)
-    delay.observe(age(ms), true, 1e-3);
+    delay.observe(age(ms), 1e-3);
 }
 
 TEST(LinkDelay, IsThatOfASteadyLinkAndIgnoresSilence) {
@@ -146,15 +146,15 @@ TEST(LinkDelay, IsThatOfASteadyLinkAndIgnoresSilence) {
   EXPECT_EQ(delay.upper_quartile(), milliseconds(20));
 }
 
-TEST(LinkDelay, IsFoundFasterWhileNoForceActs) {
-  LinkDelay acting(1e-3);
-  LinkDelay fading(1e-3);
-  for (int ms = 0; ms < 300; ++ms) {
-    acting.observe(milliseconds(100), true, 1e-3);
-    fading.observe(milliseconds(100), false, 1e-3);
-  }
-  EXPECT_LT(acting.upper_quartile(), milliseconds(2));
-  EXPECT_GT(fading.upper_quartile(), milliseconds(50));
+// Until then, no force acts.
+TEST(LinkDelay, IsFoundFasterAtFirst) {
+  LinkDelay delay(1e-3);
+  observe(delay, 0.4, [](int) { return milliseconds(100); });
+  EXPECT_EQ(delay.upper_quartile(), milliseconds(100));
+  observe(delay, 4.0, [](int) { return milliseconds(1); });
+  EXPECT_LE(delay.upper_quartile(), milliseconds(2));
+  observe(delay, 0.4, [](int) { return milliseconds(100); });
+  EXPECT_LE(delay.upper_quartile(), milliseconds(15));
 }
 
 TEST(LinkDelay, StandsStillWhileSomeCommandsComeEarlyOrLate) {
@@ -175,10 +175,10 @@ TEST(LinkDelay, IsThatOfTheLaterHalfWhereAgesAlternate) {
 TEST(LinkDelay, ChangesTheLagOfASpringByLessThanAPercentInAPeriod) {
   for (const double period_s : {1e-3, 10e-3}) {
     LinkDelay delay(period_s);
-    delay.observe(milliseconds(0), true, period_s);
+    delay.observe(milliseconds(0), period_s);
     double lag_s = 0.5 * period_s;
     for (int i = 0; i < 1000; ++i) {
-      delay.observe(milliseconds(i < 500 ? 100 : 0), true, period_s);
+      delay.observe(milliseconds(i < 500 ? 100 : 0), period_s);
       const double now_s = 0.5 * period_s + std::chrono::duration<double>(delay.upper_quartile()).count();
       ASSERT_NEAR(now_s / lag_s, 1.0, 0.01) << i;
       lag_s = now_s;

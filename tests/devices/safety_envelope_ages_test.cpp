@@ -67,6 +67,7 @@ TEST(SafetyEnvelope, ASlowGloveObeysNoCommandThatIsTooOldToBeADelay) {
   EXPECT_TRUE(is_zero(pulled_late(envelope, 30.0, 300, [](int) { return 5; }))) << "167 ms";
   EXPECT_FALSE(is_zero(pulled_late(envelope, 30.0, 300, [](int) { return 4; }))) << "133 ms";
   EXPECT_NEAR(1e-6 * static_cast<double>(envelope.link_delay().count()), 133.3, 0.1);
+  EXPECT_TRUE(is_zero(pulled_late(envelope, 30.0, 300, [](int) { return 5; }))) << "167 ms, once 133 ms are known";
 }
 
 TEST(SafetyEnvelope, SilencesAreNoDelayOfTheLink) {

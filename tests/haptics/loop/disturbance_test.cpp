@@ -300,7 +300,9 @@ TEST_P(Disturbance, TicksThatAllTakeTooLongMakeTheContactSofterForAWhile) {
     };
     const Outcome outcome = disturbed_run(GetParam(), {.tick_time = tick_time}, end);
     print("for 1 s, each tick takes " + std::to_string(time.count()) + " µs", outcome);
-    EXPECT_LE(outcome.recovery, milliseconds(time < kTickPeriod ? 0 : GetParam() == Takes::kWrench ? 2000 : 300));
+    EXPECT_EQ(outcome.recovery == milliseconds(0),
+              time < (GetParam() == Takes::kWrench ? kTickPeriod : milliseconds(6)));
+    EXPECT_LE(outcome.recovery, milliseconds(time == microseconds(3300) ? 1000 : 300));
   }
 }
 
