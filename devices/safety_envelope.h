@@ -83,8 +83,7 @@ std::string to_text(const SafeCommand& command);
 /// `taken` restarts at 0, and the difference from the earlier `supply` does not count.
 ///
 /// A link delay does not make commands old if the whole round trip takes at most 150 ms: the delay that three of four
-/// commands keep (`link_delay`) is subtracted from the age of each command. What is left may be at most 150 ms, also
-/// for a device with longer periods.
+/// commands keep (`link_delay`) is subtracted from the age of each command. No command older than 150 ms acts.
 ///
 /// Force and torque have separate maxima, so that a device without torque still gives its force. But the axis of the
 /// wrench moves when one of them is at its maximum. The power limit scales force and torque by the same factor.

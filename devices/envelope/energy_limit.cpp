@@ -45,10 +45,9 @@ void EnergyLimit::observe(const BookedMotion& motion) noexcept {
                              seconds * u * (1.0 - u) * ((1.0 - u) * v_begin - u * v_end));
     };
   };
-  const Eigen::Vector3d way = to.X_WH.translation() - from.X_WH.translation();
-  const Eigen::Vector3d turn = turn_between(from.X_WH.linear(), to.X_WH.linear());
+  const geometry::Displacement moved = geometry::displacement_between(from.X_WH, to.X_WH, Eigen::Vector3d::Zero());
   const double given =
-      given_.work(motion.begin, motion.end, curve(way, from.v_WH, to.v_WH), curve(turn, from.w_WH, to.w_WH));
+      given_.work(motion.begin, motion.end, curve(moved.v, from.v_WH, to.v_WH), curve(moved.w, from.w_WH, to.w_WH));
   const bool is_known = motion.end - motion.begin <= longest_known_;
   book(is_known ? -given : std::min(0.0, -given), motion.is_jump, motion.end);
   strokes_.observe(motion, given_);

@@ -146,8 +146,8 @@ bool HalfSpaceLimits::change_softly(double dt) noexcept {
 /// Noise within the play is no motion.
 void HalfSpaceLimits::observe_rest(const Eigen::Isometry3d& X_WH, double dt) noexcept {
   if (dt <= 0.0) return;
-  const PoseInPlay::Step step = pose_.follow(X_WH);
-  const double speed = (step.way.norm() + kEnvelope.lever_m * step.turn.norm()) / dt;
+  const geometry::Displacement step = pose_.follow(X_WH);
+  const double speed = (step.v.norm() + kEnvelope.lever_m * step.w.norm()) / dt;
   speed_m_per_s_ += std::min(1.0, dt / kEnvelope.rate_averaged_s) * (speed - speed_m_per_s_);
   resting_for_s_ = speed_m_per_s_ < kEnvelope.resting_m_per_s ? resting_for_s_ + dt : 0.0;
 }

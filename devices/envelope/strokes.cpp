@@ -16,34 +16,26 @@ Eigen::Vector3d beyond(double play, const Eigen::Vector3d& vector) noexcept {
 
 }  // namespace
 
-Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept {
-  const Eigen::AngleAxisd turn(B * A.transpose());
-  return turn.angle() * turn.axis();
-}
-
 PoseInPlay::PoseInPlay(double resolution, double max_force) noexcept
     : play_(kEnvelope.play_per_resolution * (resolution > 0.0 ? resolution : kEnvelope.usual_resolution_m)) {
   if (max_force > 0.0) play_ = std::min(play_, 0.5 * kEnvelope.most_stirred_J / max_force);
 }
 
-PoseInPlay::Step PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
-  const Step step{beyond(play_, X_WH.translation() - X_WH_.translation()),
-                  beyond(play_ / kEnvelope.lever_m, turn_between(X_WH_.linear(), X_WH.linear()))};
-  X_WH_.translation() += step.way;
-  if (!step.turn.isZero(0.0)) {
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(step.turn.norm(), step.turn.normalized()).toRotationMatrix();
-    X_WH_.linear() = turn * X_WH_.linear();
-  }
+geometry::Displacement PoseInPlay::follow(const Eigen::Isometry3d& X_WH) noexcept {
+  const Eigen::Vector3d root = Eigen::Vector3d::Zero();
+  const geometry::Displacement whole = geometry::displacement_between(X_WH_, X_WH, root);
+  const geometry::Displacement step{beyond(play_, whole.v), beyond(play_ / kEnvelope.lever_m, whole.w)};
+  X_WH_ = geometry::displaced(X_WH_, root, step);
   return step;
 }
 
 void Strokes::observe(const BookedMotion& motion, const GivenWrenches& given) noexcept {
   if (motion.from.time != last_) pose_.start_at(motion.from.X_WH);
   last_ = motion.to.time;
-  const PoseInPlay::Step step = pose_.follow(motion.to.X_WH);
+  const geometry::Displacement step = pose_.follow(motion.to.X_WH);
   const double work = given.work(
-      motion.begin, motion.end, [&](double u) { return Eigen::Vector3d(u * step.way); },
-      [&](double u) { return Eigen::Vector3d(u * step.turn); });
+      motion.begin, motion.end, [&](double u) { return Eigen::Vector3d(u * step.v); },
+      [&](double u) { return Eigen::Vector3d(u * step.w); });
   // No more than that counts, so that a contact is calm soon after a great stroke.
   double& stirred = work < 0.0 ? came_ : went_;
   stirred = std::min(stirred + std::abs(work), kEnvelope.most_stirred_J);

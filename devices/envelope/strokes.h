@@ -7,13 +7,12 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/geometry/displacement.h>
+
 #include "envelope/given_wrenches.h"
 #include "envelope/state_check.h"
 
 namespace glissade::devices {
-
-/// The rotation from A to B as a vector, rad.
-Eigen::Vector3d turn_between(const Eigen::Matrix3d& A, const Eigen::Matrix3d& B) noexcept;
 
 /// A pose that follows the measured one with a play, so that noise of the tracker is no motion.
 class PoseInPlay {
@@ -22,13 +21,9 @@ class PoseInPlay {
   /// largest force gives no more than 5 mJ on this way: a greater stroke cannot hide.
   PoseInPlay(double resolution, double max_force) noexcept;
 
-  struct Step {
-    Eigen::Vector3d way;   ///< m
-    Eigen::Vector3d turn;  ///< rad
-  };
-
   void start_at(const Eigen::Isometry3d& X_WH) noexcept { X_WH_ = X_WH; }
-  Step follow(const Eigen::Isometry3d& X_WH) noexcept;
+  /// Returns the displacement of the hand root by which it follows.
+  geometry::Displacement follow(const Eigen::Isometry3d& X_WH) noexcept;
 
  private:
   double play_;  // m

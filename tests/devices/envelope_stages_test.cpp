@@ -33,12 +33,12 @@ Eigen::Isometry3d at_x(double x) {
 TEST(PoseInPlay, FollowsBeyondFourTimesTheResolution) {
   PoseInPlay pose(1e-3, 0.5);
   pose.start_at(at_x(0.1));
-  EXPECT_EQ(pose.follow(at_x(0.1039)).way.x(), 0.0);
-  EXPECT_NEAR(pose.follow(at_x(0.110)).way.x(), 0.006, 1e-12);
-  EXPECT_EQ(pose.follow(at_x(0.103)).way.x(), 0.0) << "8 mm of play";
-  EXPECT_NEAR(pose.follow(at_x(0.100)).way.x(), -0.002, 1e-12);
+  EXPECT_EQ(pose.follow(at_x(0.1039)).v.x(), 0.0);
+  EXPECT_NEAR(pose.follow(at_x(0.110)).v.x(), 0.006, 1e-12);
+  EXPECT_EQ(pose.follow(at_x(0.103)).v.x(), 0.0) << "8 mm of play";
+  EXPECT_NEAR(pose.follow(at_x(0.100)).v.x(), -0.002, 1e-12);
   const Eigen::Isometry3d turned = at_x(0.1) * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitZ());
-  EXPECT_NEAR(pose.follow(turned).turn.z(), 0.05 - 0.04, 1e-4) << "4 mm at 0.1 m";
+  EXPECT_NEAR(pose.follow(turned).w.z(), 0.05 - 0.04, 1e-4) << "4 mm at 0.1 m";
 }
 
 /// 20 N push along x while the hand moves by so much in a millisecond, again and again.
@@ -65,7 +65,7 @@ class PushedHand {
 TEST(PoseInPlay, PlayIsAtMost5MillijoulesAtMaximumForce) {
   PoseInPlay pose(1e-3, 20.0);
   pose.start_at(at_x(0.0));
-  EXPECT_NEAR(pose.follow(at_x(1e-3)).way.x(), 0.75e-3, 1e-12);
+  EXPECT_NEAR(pose.follow(at_x(1e-3)).v.x(), 0.75e-3, 1e-12);
 }
 
 TEST(Strokes, NoiseCountsAsCalm) {
