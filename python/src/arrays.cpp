@@ -1,0 +1,125 @@
+#include "arrays.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <glissade/files/pose_rules.h>
+#include <glissade/files/text.h>
+#include <glissade/geometry/displacement.h>
+
+namespace glissade::python {
+
+namespace {
+
+/// The defect from which on queries refuse a pose.
+constexpr double kLargestDefect = 1e-3;
+
+std::string shape_of(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t axis = 0; axis < array.ndim(); ++axis)
+    text += (axis > 0 ? ", " : "") + std::to_string(array.shape(axis));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+/// The name of the pose with this number, in the order of the rows.
+std::string name_of_pose(const std::string& name, std::size_t pose, const std::vector<py::ssize_t>& shape) {
+  std::string indices;
+  std::size_t rest = pose;
+  for (std::size_t axis = shape.size(); axis-- > 0;) {
+    const auto length = static_cast<std::size_t>(shape[axis]);
+    indices = std::to_string(rest % length) + (indices.empty() ? "" : ", ") + indices;
+    rest /= length;
+  }
+  return indices.empty() ? name : name + "[" + indices + "]";
+}
+
+Eigen::Isometry3d pose_from_row(const double* row, const std::string& name) {
+  for (int i = 0; i < 7; ++i) {
+    if (!std::isfinite(row[i]))
+      throw std::invalid_argument(name + ": " + files::format_number(row[i]) + " is not finite");
+  }
+  return files::checked_pose({row[0], row[1], row[2]}, Eigen::Quaterniond(row[3], row[4], row[5], row[6]), name);
+}
+
+Eigen::Isometry3d pose_from_matrix(const double* values, const std::string& name) {
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values);
+  if (!matrix.allFinite()) throw std::invalid_argument(name + " has a number that is not finite");
+  if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+    throw std::invalid_argument(name + ": the last row of a pose is 0, 0, 0, 1");
+  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
+  X.matrix().topRows<3>() = matrix.topRows<3>();
+  if (geometry::rotation_defect(X.linear()) >= kLargestDefect)
+    throw std::invalid_argument(name + " has no rotation; its columns must be of length 1, at right angles");
+  if (!geometry::is_right_handed(X.linear())) throw std::invalid_argument(name + " is a reflection");
+  return X;
+}
+
+}  // namespace
+
+Numbers numbers_from(const py::object& argument, const std::string& name) {
+  const py::array array = py::array::ensure(argument);
+  if (!array) {
+    PyErr_Clear();
+    throw py::type_error(name + " is no array of numbers");
+  }
+  if (const char kind = array.dtype().kind(); kind != 'f' && kind != 'i' && kind != 'u') {
+    throw py::type_error(name + " is an array of " + std::string(py::str(array.dtype())) + ", not of real numbers");
+  }
+  return Numbers::ensure(array);
+}
+
+Poses poses_from(const py::object& argument, const std::string& name) {
+  const Numbers array = numbers_from(argument, name);
+  const py::ssize_t axes = array.ndim();
+  const bool are_rows = axes >= 1 && array.shape(axes - 1) == 7;
+  const bool are_matrices = axes >= 2 && array.shape(axes - 1) == 4 && array.shape(axes - 2) == 4;
+  if (!are_rows && !are_matrices) {
+    throw std::invalid_argument(name + " has the shape " + shape_of(array) +
+                                ", but poses have the shape (7,), (n, 7), (4, 4) or (n, 4, 4)");
+  }
+  Poses poses;
+  poses.shape.assign(array.shape(), array.shape() + axes - (are_rows ? 1 : 2));
+  const py::ssize_t values_each = are_rows ? 7 : 16;
+  const auto count = static_cast<std::size_t>(array.size() / values_each);
+  poses.X.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const double* const values = array.data() + static_cast<py::ssize_t>(i) * values_each;
+    const auto own_name = [&] { return name_of_pose(name, i, poses.shape); };
+    poses.X.push_back(are_rows ? pose_from_row(values, own_name()) : pose_from_matrix(values, own_name()));
+  }
+  return poses;
+}
+
+Eigen::Isometry3d pose_from(const py::object& argument, const std::string& name) {
+  const Poses poses = poses_from(argument, name);
+  if (!poses.is_single()) throw std::invalid_argument(name + " must be one pose, of the shape (7,) or (4, 4)");
+  return poses.X.front();
+}
+
+py::array_t<double> to_array(std::span<const Eigen::Isometry3d> poses, std::vector<py::ssize_t> shape) {
+  py::array_t<double> array = new_array<double>(shape, {4, 4});
+  double* values = array.mutable_data();
+  for (const Eigen::Isometry3d& X : poses) {
+    Eigen::Map<Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values);
+    matrix = X.matrix();
+    values += 16;
+  }
+  return array;
+}
+
+py::array_t<double> to_array(const Eigen::Isometry3d& pose) {
+  return to_array(std::span(&pose, 1), {});
+}
+
+Eigen::Vector3d vector_from(const py::object& argument, const std::string& name) {
+  const Numbers array = numbers_from(argument, name);
+  if (array.ndim() != 1 || array.shape(0) != 3)
+    throw std::invalid_argument(name + " has the shape " + shape_of(array) + " instead of (3,)");
+  return {array.at(0), array.at(1), array.at(2)};
+}
+
+py::array_t<double> to_array(const Eigen::Vector3d& vector) {
+  return py::array_t<double>(3, vector.data());
+}
+
+}  // namespace glissade::python

@@ -1,0 +1,58 @@
+#pragma once
+
+/// NumPy arrays as the library's types, and back. Every function that reads an argument throws pybind11::type_error for
+/// something that is no array of real numbers, and std::invalid_argument for a wrong shape or value. The message begins
+/// with the name of the argument.
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+namespace glissade::python {
+
+namespace py = pybind11;
+
+/// Numbers in rows, one after another, in double precision.
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+/// The argument as numbers, whatever its real type and its strides.
+Numbers numbers_from(const py::object& argument, const std::string& name);
+
+/// One pose, or several in an array.
+struct Poses {
+  std::vector<Eigen::Isometry3d> X;
+  std::vector<py::ssize_t> shape;  ///< of the array without the axes of a pose; empty for one pose
+
+  bool is_single() const { return shape.empty(); }
+};
+
+/// Poses as rows (…, 7) of x, y, z (metres) and the quaternion qw, qx, qy, qz, or as matrices (…, 4, 4). A quaternion
+/// may be up to 1e-3 longer or shorter than 1. A matrix keeps its bits.
+Poses poses_from(const py::object& argument, const std::string& name);
+
+/// Exactly one pose.
+Eigen::Isometry3d pose_from(const py::object& argument, const std::string& name);
+
+/// Matrices of the shape (…, 4, 4).
+py::array_t<double> to_array(std::span<const Eigen::Isometry3d> poses, std::vector<py::ssize_t> shape);
+py::array_t<double> to_array(const Eigen::Isometry3d& pose);
+
+/// A point or vector of three numbers.
+Eigen::Vector3d vector_from(const py::object& argument, const std::string& name);
+py::array_t<double> to_array(const Eigen::Vector3d& vector);
+
+/// An array of this shape without values.
+template <typename Number>
+py::array_t<Number> new_array(const std::vector<py::ssize_t>& shape,
+                              std::initializer_list<py::ssize_t> last_axes = {}) {
+  std::vector<py::ssize_t> all = shape;
+  all.insert(all.end(), last_axes);
+  return py::array_t<Number>(all);
+}
+
+}  // namespace glissade::python

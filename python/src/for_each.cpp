@@ -1,0 +1,97 @@
+#include "for_each.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <pybind11/pybind11.h>
+
+namespace glissade::python {
+
+namespace py = pybind11;
+
+namespace {
+
+using Worker = std::function<void(std::int64_t)>;
+
+/// Items that a thread takes at once. Neighbours stay together, which coherent workspaces profit from.
+constexpr std::int64_t kBlock = 32;
+
+/// How often the calling thread looks for signals.
+constexpr std::chrono::milliseconds kSignalPeriod{50};
+
+/// The work that threads share, and the first of its failures.
+class SharedWork {
+ public:
+  explicit SharedWork(std::int64_t count) : count_(count), failed_at_(count) {}
+
+  /// Works until nothing is left. `goes_on` is called after each block.
+  template <typename GoesOn>
+  void take_part(const std::function<Worker()>& make_worker, GoesOn goes_on) noexcept {
+    std::int64_t item = 0;
+    try {
+      const Worker worker = make_worker();
+      while (!ends_.load(std::memory_order_relaxed)) {
+        item = next_.fetch_add(kBlock);
+        if (item >= count_) return;
+        for (const std::int64_t end = std::min(count_, item + kBlock); item < end; ++item)
+          worker(item);
+        goes_on();
+      }
+    } catch (...) {
+      fail(item);
+    }
+  }
+
+  void rethrow() const {
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+ private:
+  /// Blocks are handed out in ascending order and worked off to their ends, so the lowest item is always found.
+  void fail(std::int64_t item) noexcept {
+    const std::lock_guard lock(mutex_);
+    ends_ = true;
+    if (failure_ && item >= failed_at_) return;
+    failed_at_ = item;
+    failure_ = std::current_exception();
+  }
+
+  std::int64_t count_;
+  std::atomic<std::int64_t> next_{0};
+  std::atomic<bool> ends_{false};
+  std::mutex mutex_;
+  std::int64_t failed_at_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+void SignalCheck::operator()() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now < next_) return;
+  next_ = now + kSignalPeriod;
+  const py::gil_scoped_acquire locked;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+void for_each(std::int64_t count, int threads, const std::function<Worker()>& make_worker) {
+  if (threads < 1) throw std::invalid_argument("threads must be at least 1, not " + std::to_string(threads));
+  const py::gil_scoped_release unlocked;
+  SharedWork shared(count);
+  const std::int64_t blocks = (count + kBlock - 1) / kBlock;
+  std::vector<std::jthread> others;
+  for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, blocks); ++i)
+    others.emplace_back([&] { shared.take_part(make_worker, [] {}); });
+  shared.take_part(make_worker, SignalCheck());
+  others.clear();  // joins
+  shared.rethrow();
+}
+
+}  // namespace glissade::python

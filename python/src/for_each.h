@@ -1,0 +1,27 @@
+#pragma once
+
+/// Long work for Python: without the interpreter lock, in several threads, and with an end on Ctrl-C.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+
+namespace glissade::python {
+
+/// Calls worker(i) for each i from 0 to `count` − 1, with one worker for each thread. `threads` is at least 1. The
+/// calling thread must hold the interpreter lock, which it gives back meanwhile. Rethrows the exception of the lowest i
+/// that throws. Throws std::invalid_argument for `threads` below 1, and pybind11::error_already_set after a signal such
+/// as Ctrl-C.
+void for_each(std::int64_t count, int threads, const std::function<std::function<void(std::int64_t)>()>& make_worker);
+
+/// Looks for signals, such as Ctrl-C, some times a second.
+class SignalCheck {
+ public:
+  /// Called without the interpreter lock. Throws pybind11::error_already_set after a signal.
+  void operator()();
+
+ private:
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace glissade::python
