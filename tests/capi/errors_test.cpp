@@ -119,7 +119,7 @@ TEST_F(BoxOnPlate, LengthsAndNumbersThatDoNotFit) {
 }
 
 TEST_F(BoxOnPlate, NamesThatAreUnknownOrTaken) {
-  expect_invalid(glissade_scene_set_movable(scene, "boks", 1), "'box'");
+  expect_invalid(glissade_scene_set_movable(scene, "boks", 1), "no object 'boks' (known: plate, box)");
   expect_invalid(glissade_scene_add_shape(scene, "box", "box", nullptr, nullptr, 0, nullptr), "already is");
   expect_invalid(glissade_scene_add_shape(scene, "", "box", nullptr, nullptr, 0, nullptr), "name is empty");
   expect_invalid(glissade_scene_add_shape(scene, "b", "bocks", nullptr, nullptr, 0, nullptr), "bocks");

@@ -17,7 +17,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A driver at 1 kHz whose hand goes to and fro by 2 cm, above the plate, and turns with its place: 1 rad/m.
+/// A driver at 1 kHz whose hand goes to and fro by 1 cm, above the plate, and turns with its place: 1 rad/m.
 class SwingingDriver {
  public:
   explicit SwingingDriver(GlissadeGlove glove) : glove_(glove), thread_([this] { run(); }) {}
@@ -31,7 +31,8 @@ class SwingingDriver {
     GlissadeGloveState state;
     glissade_glove_state_default(&state);
     for (std::int64_t ms = 0; !should_end_; ++ms) {
-      const double x = 20e-6 * static_cast<double>(500 - std::abs(ms % 2000 - 1000));
+      const std::int64_t phase = std::max<std::int64_t>(0, ms - 200) + 500;  // the box is taken at the origin
+      const double x = 20e-6 * static_cast<double>(500 - std::abs(phase % 2000 - 1000));
       state.X_WH = {x, 0.0, 0.0, std::cos(0.5 * x), 0.0, 0.0, std::sin(0.5 * x)};
       state.time_ns = glissade_now_ns();
       EXPECT_C(glissade_glove_put(glove_, &state));
