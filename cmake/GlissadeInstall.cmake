@@ -2,10 +2,14 @@
 # searches only for the packages that these components need. Which those are is read off the targets here.
 
 # glissade_get_needs(COMPONENT DEPENDS PACKAGES): sets DEPENDS to the components that a component links, PACKAGES to the
-# packages, each as arguments of find_package joined by spaces. Private ones count: users of a static library link them.
+# packages, each as arguments of find_package joined by spaces. Private ones count for a static library: its users link them.
 function(glissade_get_needs component depends packages)
+  get_target_property(type glissade_${component} TYPE)
   get_target_property(private_links glissade_${component} LINK_LIBRARIES)
   get_target_property(public_links glissade_${component} INTERFACE_LINK_LIBRARIES)
+  if(type STREQUAL "SHARED_LIBRARY")
+    set(private_links)
+  endif()
   string(REGEX MATCHALL "[A-Za-z0-9_]+::[A-Za-z0-9_]+|yaml-cpp" targets "${private_links};${public_links}")
   list(REMOVE_DUPLICATES targets)
   set(found_depends)

@@ -16,7 +16,6 @@
 
 #include <Eigen/Geometry>
 
-#include <glissade/contact/metaphor.h>
 #include <glissade/contact/sliding.h>
 #include <glissade/contact/sliding_rules.h>
 #include <glissade/contact/spring.h>

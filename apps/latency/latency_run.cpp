@@ -16,7 +16,7 @@
 #include <glissade/apps/latency/udp_ping_pong.h>
 #include <glissade/apps/run/lcm_option.h>
 #include <glissade/contact/contact_body.h>
-#include <glissade/devices/haptic_state_publisher.h>
+#include <glissade/devices/haptic_state.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/grasping/grasp_simulation.h>

@@ -8,7 +8,6 @@
 #include <glissade/apps/run/run_watch.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/devices/haptic_state.h>
-#include <glissade/devices/haptic_state_publisher.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/viewer/view_server.h>
 

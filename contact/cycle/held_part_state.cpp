@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <glissade/contact/metaphor.h>
+#include <glissade/contact/sliding_rules.h>
 
 #include "cycle/sliding_constants.h"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <glissade/base/assert.h>
-#include <glissade/contact/metaphor.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/contact/spring.h>
 #include <glissade/geometry/displacement.h>
 

@@ -10,7 +10,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <glissade/devices/haptic_state_publisher.h>
+#include <glissade/devices/haptic_state.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/lcmtypes/glove_command_t.hpp>

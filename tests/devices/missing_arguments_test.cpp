@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/devices/haptic_state_publisher.h>
+#include <glissade/devices/haptic_state.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>

@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <glissade/contact/metaphor.h>
 #include <glissade/contact/sliding.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/geometry/mesh_generators.h>
 
 #include "cycle/sliding_constants.h"

@@ -1,6 +1,6 @@
 #include <utility>
 
-#include <glissade/devices/haptic_state_publisher.h>
+#include <glissade/devices/haptic_state.h>
 
 #include "lcm/checked_bus.h"
 #include "lcm/haptic_state_message.h"

@@ -1,6 +1,6 @@
 #include <algorithm>
 
-#include <glissade/contact/metaphor.h>
+#include <glissade/contact/sliding_rules.h>
 #include <glissade/geometry/displacement.h>
 
 namespace glissade::contact {
