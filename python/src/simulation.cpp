@@ -1,5 +1,3 @@
-#include "simulation.h"
-
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -15,6 +13,7 @@
 #include <glissade/grasping/grasp_analysis.h>
 
 #include "arrays.h"
+#include "guarded_simulation.h"
 #include "module.h"
 #include "track.h"
 
@@ -129,96 +128,93 @@ void add_contact(py::module_& module) {
       });
 }
 
+using Type = py::class_<GuardedSimulation>;
+
+void add_motion(Type& type) {
+  const auto milliseconds = py::arg("milliseconds") = 1.0;
+  type.def(
+      py::init(&make), py::arg("scene"),
+      "Builds the trees of the scene. Raises ValueError, naming the object, for a scene that cannot be simulated.");
+  type.def("advance", &advance, py::arg("X_WG"), milliseconds,
+           R"(Moves each part towards its ghost for `milliseconds`; call it once a millisecond of motion.
+
+X_WG: one pose for each part, (7,) or (4, 4) for a scene with one part, else (parts, 7) or (parts, 4, 4).)");
+  type.def(
+      "advance_hands", &advance_hands, py::arg("postures"), milliseconds,
+      "Moves each hand towards its Posture, and the parts with the hands. None: the tracking of this hand is lost.");
+  type.def("follow", &follow, py::arg("X_WG"), milliseconds, py::kw_only(), py::arg("clearance") = false,
+           R"(Advances along a path in one call, and returns a Track of all poses and forces.
+
+X_WG: (n, 7) or (n, 4, 4) for a scene with one part, else (n, parts, 7) or (n, parts, 4, 4). clearance: also the distance
+from the first part to the nearest other body, which costs several queries a pose. Other Python threads run meanwhile.
+Ctrl-C ends the path early; the simulation stays where it is.)");
+  type.def("follow_hands", &follow_hands, py::arg("X_WR"), py::arg("angles"), milliseconds,
+           R"(Like `follow`, for a scene with hands.
+
+X_WR: poses of the wrists, (n, 7) or (n, 4, 4) for one hand, else (n, hands, …). angles: (n, 22) or (n, hands, 22) rad.)");
+}
+
+void add_parts(Type& type) {
+  const auto part = py::arg("part") = 0;
+  const auto pose = [](GuardedSimulation& of, std::size_t p, Eigen::Isometry3d contact::SlidingResult::*member) {
+    return to_array(
+        of_part(of, p, [&](Simulation& simulation, std::size_t i) { return simulation.result(i).*member; }));
+  };
+  const auto X_WV = [pose](GuardedSimulation& of, std::size_t p) { return pose(of, p, &contact::SlidingResult::X_WV); };
+  const auto X_WG = [pose](GuardedSimulation& of, std::size_t p) { return pose(of, p, &contact::SlidingResult::X_WG); };
+  const auto state = [](GuardedSimulation& of, std::size_t p) {
+    return of_part(of, p, [](Simulation& simulation, std::size_t i) {
+      return std::string(contact::name_of(simulation.result(i).state));
+    });
+  };
+  const auto clearance = [](GuardedSimulation& of, std::size_t p, double farthest) {
+    return of_part(of, p, [&](Simulation& simulation, std::size_t i) { return simulation.clearance(i, farthest); });
+  };
+  type.def_property_readonly("part_names", &part_names);
+  type.def("X_WV", X_WV, part, "(4, 4) the pose of the visible part");
+  type.def("X_WG", X_WG, part, "(4, 4) the pose of its ghost");
+  type.def("state", state, part, "one of SLIDING_STATES");
+  type.def(
+      "wrench", &wrench, part,
+      "The force (3,) in N and the torque (3,) in Nm of the contacts on the hands that hold the part, in world axes, "
+      "about its compliance point. Exactly zero while no contact pushes.");
+  type.def("lag", &lag, part,
+           "The displacement from the visible part to its target: translation (3,) in metres, rotation vector (3,).");
+  type.def("contacts", &contacts, part, "The touching contacts, a list of Contact.");
+  type.def("clearance", clearance, part, py::arg("farthest") = std::numeric_limits<double>::infinity(),
+           "Metres from the part to the nearest other body; `farthest` if none is nearer.");
+}
+
+void add_hands_of_simulation(Type& type) {
+  const auto hand = py::arg("hand") = 0;
+  const auto grasp = [](GuardedSimulation& of, std::size_t h) {
+    return of_hand(
+        of, h, [](Simulation& simulation, std::size_t i) { return grasping::reason_of(simulation.engine().grasp(i)); });
+  };
+  const auto held_part = [](GuardedSimulation& of, std::size_t h) {
+    return of_hand(of, h, [](Simulation& simulation, std::size_t i) { return simulation.engine().held_part(i); });
+  };
+  const auto posture = [](GuardedSimulation& of, std::size_t h) {
+    return of_hand(of, h, [](Simulation& simulation, std::size_t i) { return simulation.engine().posture(i); });
+  };
+  type.def("grasp", grasp, hand, "A sentence that says what the hand holds or touches, or what a grasp lacks.");
+  type.def("held_part", held_part, hand, "The number of the part that the hand holds, or None.");
+  type.def("posture", posture, hand, "The Posture of the visible hand, which enters nothing.");
+}
+
 }  // namespace
 
 void add_simulation(py::module_& module) {
   add_contact(module);
   add_track(module);
-  const auto part = py::arg("part") = 0;
-  const auto hand = py::arg("hand") = 0;
-  const auto milliseconds = py::arg("milliseconds") = 1.0;
-  py::class_<GuardedSimulation>(module, "Simulation", R"(A scene in motion. Deterministic.
+  Type type(module, "Simulation", R"(A scene in motion. Deterministic.
 
 Without hands, the caller leads the parts: each follows its ghost, the pose it would have if nothing were in the way, and
 never enters another body. Hands with fingers grasp parts by touch. Several Python threads may use a simulation: each call
-waits for the one before.)")
-      .def(py::init(&make), py::arg("scene"),
-           "Builds the trees of the scene. Raises ValueError, naming the object, for a scene that cannot be simulated.")
-      .def("advance", &advance, py::arg("X_WG"), milliseconds,
-           R"(Moves each part towards its ghost for `milliseconds`; call it once a millisecond of motion.
-
-X_WG: one pose for each part, (7,) or (4, 4) for a scene with one part, else (parts, 7) or (parts, 4, 4).)")
-      .def(
-          "advance_hands", &advance_hands, py::arg("postures"), milliseconds,
-          "Moves each hand towards its Posture, and the parts with the hands. None: the tracking of this hand is lost.")
-      .def("follow", &follow, py::arg("X_WG"), milliseconds, py::kw_only(), py::arg("clearance") = false,
-           R"(Advances along a path in one call, and returns a Track of all poses and forces.
-
-X_WG: (n, 7) or (n, 4, 4) for a scene with one part, else (n, parts, 7) or (n, parts, 4, 4). clearance: also the distance
-from the first part to the nearest other body, which costs several queries a pose. Other Python threads run meanwhile.
-Ctrl-C ends the path early; the simulation stays where it is.)")
-      .def("follow_hands", &follow_hands, py::arg("X_WR"), py::arg("angles"), milliseconds,
-           R"(Like `follow`, for a scene with hands.
-
-X_WR: poses of the wrists, (n, 7) or (n, 4, 4) for one hand, else (n, hands, …). angles: (n, 22) or (n, hands, 22) rad.)")
-      .def_property_readonly("part_names", &part_names)
-      .def(
-          "X_WV",
-          [](GuardedSimulation& of, std::size_t p) {
-            return to_array(of_part(of, p, [](Simulation& simulation, std::size_t i) { return simulation.X_WV(i); }));
-          },
-          part, "(4, 4) the pose of the visible part")
-      .def(
-          "X_WG",
-          [](GuardedSimulation& of, std::size_t p) {
-            return to_array(
-                of_part(of, p, [](Simulation& simulation, std::size_t i) { return simulation.result(i).X_WG; }));
-          },
-          part, "(4, 4) the pose of its ghost")
-      .def(
-          "state",
-          [](GuardedSimulation& of, std::size_t p) {
-            return of_part(of, p, [](Simulation& simulation, std::size_t i) {
-              return std::string(contact::name_of(simulation.result(i).state));
-            });
-          },
-          part, "one of SLIDING_STATES")
-      .def("wrench", &wrench, part,
-           "The force (3,) in N and the torque (3,) in Nm of the contacts on the hands that hold the part, in world "
-           "axes, "
-           "about its compliance point. Exactly zero while no contact pushes.")
-      .def("lag", &lag, part,
-           "The displacement from the visible part to its target: translation (3,) in metres, rotation vector (3,).")
-      .def("contacts", &contacts, part, "The touching contacts, a list of Contact.")
-      .def(
-          "clearance",
-          [](GuardedSimulation& of, std::size_t p, double farthest) {
-            return of_part(of, p,
-                           [&](Simulation& simulation, std::size_t i) { return simulation.clearance(i, farthest); });
-          },
-          part, py::arg("farthest") = std::numeric_limits<double>::infinity(),
-          "Metres from the part to the nearest other body; `farthest` if none is nearer.")
-      .def(
-          "grasp",
-          [](GuardedSimulation& of, std::size_t h) {
-            return of_hand(of, h, [](Simulation& simulation, std::size_t i) {
-              return grasping::reason_of(simulation.engine().grasp(i));
-            });
-          },
-          hand, "A sentence that says what the hand holds or touches, or what a grasp lacks.")
-      .def(
-          "held_part",
-          [](GuardedSimulation& of, std::size_t h) {
-            return of_hand(of, h,
-                           [](Simulation& simulation, std::size_t i) { return simulation.engine().held_part(i); });
-          },
-          hand, "The number of the part that the hand holds, or None.")
-      .def(
-          "posture",
-          [](GuardedSimulation& of, std::size_t h) {
-            return of_hand(of, h, [](Simulation& simulation, std::size_t i) { return simulation.engine().posture(i); });
-          },
-          hand, "The Posture of the visible hand, which enters nothing.");
+waits for the one before.)");
+  add_motion(type);
+  add_parts(type);
+  add_hands_of_simulation(type);
 }
 
 }  // namespace glissade::python

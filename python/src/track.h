@@ -6,7 +6,7 @@
 
 #include <pybind11/numpy.h>
 
-#include "simulation.h"
+#include "guarded_simulation.h"
 
 namespace glissade::python {
 

@@ -35,7 +35,7 @@ def test_a_pose_among_many_is_named(cube):
     poses = np.tile(np.eye(4), (1000, 1, 1))
     poses[[700, 990], 0, 0] = 3
     for threads in [1, 4]:
-        with pytest.raises(ValueError, match=r"^X_AB\[700\]: "):
+        with pytest.raises(ValueError, match=r"^X_AB\[700\] "):
             glissade.intersects(cube, cube, poses, threads=threads)
 
 
