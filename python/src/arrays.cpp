@@ -33,24 +33,37 @@ std::string name_of_pose(const std::string& name, std::size_t pose, const std::v
   return indices.empty() ? name : name + "[" + indices + "]";
 }
 
-Eigen::Isometry3d pose_from_row(const double* row, const std::string& name) {
-  for (int i = 0; i < 7; ++i) {
-    if (!std::isfinite(row[i]))
-      throw std::invalid_argument(name + ": " + files::format_number(row[i]) + " is not finite");
+/// The name of a pose of an argument, made only for messages.
+struct NameOfPose {
+  const std::string& name;
+  const std::vector<py::ssize_t>& shape;
+  std::size_t pose;
+
+  std::string operator()() const { return name_of_pose(name, pose, shape); }
+};
+
+Eigen::Isometry3d pose_from_row(const double* row, const NameOfPose& name) {
+  const Eigen::Quaterniond q(row[3], row[4], row[5], row[6]);
+  const Eigen::Vector3d p(row[0], row[1], row[2]);
+  if (!p.allFinite() || !q.coeffs().allFinite())
+    throw std::invalid_argument(name() + " has a number that is not finite");
+  try {
+    return files::checked_pose(p, q, "");
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(name() + error.what());
   }
-  return files::checked_pose({row[0], row[1], row[2]}, Eigen::Quaterniond(row[3], row[4], row[5], row[6]), name);
 }
 
-Eigen::Isometry3d pose_from_matrix(const double* values, const std::string& name) {
+Eigen::Isometry3d pose_from_matrix(const double* values, const NameOfPose& name) {
   const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values);
-  if (!matrix.allFinite()) throw std::invalid_argument(name + " has a number that is not finite");
+  if (!matrix.allFinite()) throw std::invalid_argument(name() + " has a number that is not finite");
   if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
-    throw std::invalid_argument(name + ": the last row of a pose is 0, 0, 0, 1");
+    throw std::invalid_argument(name() + ": the last row of a pose is 0, 0, 0, 1");
   Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
   X.matrix().topRows<3>() = matrix.topRows<3>();
   if (geometry::rotation_defect(X.linear()) >= kLargestDefect)
-    throw std::invalid_argument(name + " has no rotation; its columns must be of length 1, at right angles");
-  if (!geometry::is_right_handed(X.linear())) throw std::invalid_argument(name + " is a reflection");
+    throw std::invalid_argument(name() + " has no rotation; its columns must be of length 1, at right angles");
+  if (!geometry::is_right_handed(X.linear())) throw std::invalid_argument(name() + " is a reflection");
   return X;
 }
 
@@ -84,8 +97,8 @@ Poses poses_from(const py::object& argument, const std::string& name) {
   poses.X.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
     const double* const values = array.data() + static_cast<py::ssize_t>(i) * values_each;
-    const auto own_name = [&] { return name_of_pose(name, i, poses.shape); };
-    poses.X.push_back(are_rows ? pose_from_row(values, own_name()) : pose_from_matrix(values, own_name()));
+    const NameOfPose own_name{name, poses.shape, i};
+    poses.X.push_back(are_rows ? pose_from_row(values, own_name) : pose_from_matrix(values, own_name));
   }
   return poses;
 }
