@@ -1,6 +1,7 @@
 #include "arrays.h"
 
 #include <cmath>
+#include <new>
 #include <stdexcept>
 
 #include <glissade/files/pose_rules.h>
@@ -78,7 +79,9 @@ Numbers numbers_from(const py::object& argument, const std::string& name) {
   if (const char kind = array.dtype().kind(); kind != 'f' && kind != 'i' && kind != 'u') {
     throw py::type_error(name + " is an array of " + std::string(py::str(array.dtype())) + ", not of real numbers");
   }
-  return Numbers::ensure(array);
+  Numbers numbers = Numbers::ensure(array);
+  if (!numbers) throw std::bad_alloc();
+  return numbers;
 }
 
 Poses poses_from(const py::object& argument, const std::string& name) {

@@ -2,6 +2,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -33,6 +34,7 @@ std::vector<geometry::Triangle> triangles_from(const py::object& argument, std::
   }
   check_rows_of_three(given, "triangles");
   const auto array = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>::ensure(given);
+  if (!array) throw std::bad_alloc();
   std::vector<geometry::Triangle> triangles(static_cast<std::size_t>(array.shape(0)));
   const std::int64_t* index = array.data();
   for (std::size_t i = 0; i < triangles.size(); ++i) {

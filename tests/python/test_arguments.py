@@ -80,6 +80,14 @@ def test_values(cube, call, sentence):
     assert sentence in str(caught.value)
 
 
+def test_arrays_that_no_memory_holds(cube):
+    huge = np.broadcast_to(np.float64(0), (2**45, 7))  # 2 PB, of which 8 bytes exist
+    with pytest.raises(MemoryError):
+        glissade.intersects(cube, cube, huge)
+    with pytest.raises(MemoryError):
+        glissade.Mesh([[0, 0, 0]], np.broadcast_to(np.int32(0), (2**45, 3)))
+
+
 def test_parts_and_hands_that_do_not_exist():
     simulation = glissade.Simulation(box_on_plate())
     for wrong in [lambda: simulation.X_WV(1), lambda: simulation.wrench(9), lambda: simulation.grasp()]:
