@@ -1,6 +1,7 @@
 // Frames of game engines. Both are mirror images of W, so a rotation by an angle about an axis becomes one by the same
 // angle about the negative of the mirrored axis.
 
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -18,7 +19,7 @@ struct EngineFrame {
   double units_per_m;
 };
 
-EngineFrame frame_of(GlissadeEngine engine) {
+EngineFrame frame_of(std::int32_t engine) {
   Eigen::Matrix3d axes;
   switch (engine) {
     case GLISSADE_UNITY:
@@ -28,7 +29,7 @@ EngineFrame frame_of(GlissadeEngine engine) {
       axes << 1, 0, 0, 0, -1, 0, 0, 0, 1;
       return {axes, 100.0};
   }
-  throw std::invalid_argument("engine is " + std::to_string(static_cast<int>(engine)) +
+  throw std::invalid_argument("engine is " + std::to_string(engine) +
                               ", but must be GLISSADE_UNITY (0) or GLISSADE_UNREAL (1)");
 }
 
@@ -50,24 +51,24 @@ void turn(const double* vector, const Eigen::Matrix3d& axes, double* out) {
 
 using namespace glissade::c;
 
-GlissadeStatus glissade_pose_to_engine(GlissadeEngine engine, const GlissadePose* pose, GlissadePose* out) {
+GlissadeStatus glissade_pose_to_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out) {
   return call([&] {
     const EngineFrame frame = frame_of(engine);
     at(out, "out") = turned(at(pose, "pose"), frame.axes, frame.units_per_m);
   });
 }
 
-GlissadeStatus glissade_pose_from_engine(GlissadeEngine engine, const GlissadePose* pose, GlissadePose* out) {
+GlissadeStatus glissade_pose_from_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out) {
   return call([&] {
     const EngineFrame frame = frame_of(engine);
     at(out, "out") = turned(at(pose, "pose"), frame.axes.transpose(), 1.0 / frame.units_per_m);
   });
 }
 
-GlissadeStatus glissade_vector_to_engine(GlissadeEngine engine, const double vector[3], double out[3]) {
+GlissadeStatus glissade_vector_to_engine(int32_t engine, const double vector[3], double out[3]) {
   return call([&] { turn(vector, frame_of(engine).axes, out); });
 }
 
-GlissadeStatus glissade_vector_from_engine(GlissadeEngine engine, const double vector[3], double out[3]) {
+GlissadeStatus glissade_vector_from_engine(int32_t engine, const double vector[3], double out[3]) {
   return call([&] { turn(vector, frame_of(engine).axes.transpose(), out); });
 }

@@ -76,14 +76,14 @@ GLISSADE_API int64_t glissade_now_ns(void);
  * centimetres. The world W has x forwards, y to the left and z up. */
 typedef enum GlissadeEngine { GLISSADE_UNITY = 0, GLISSADE_UNREAL = 1 } GlissadeEngine;
 
-/* A pose of W as the engine's, and back. Meshes must be converted by the same rule, each vertex as a position. */
-GLISSADE_API GlissadeStatus glissade_pose_to_engine(GlissadeEngine engine, const GlissadePose* pose, GlissadePose* out);
-GLISSADE_API GlissadeStatus glissade_pose_from_engine(GlissadeEngine engine, const GlissadePose* pose,
-                                                      GlissadePose* out);
+/* A pose of W as the frame of a GlissadeEngine, and back. Meshes must be converted by the same rule, each vertex as a
+ * position. */
+GLISSADE_API GlissadeStatus glissade_pose_to_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
+GLISSADE_API GlissadeStatus glissade_pose_from_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
 /* Turns the axes of a vector such as a force or a velocity, and does not scale it. For a torque or an angular velocity,
  * which change their sign in a mirror, take the negative of the result. */
-GLISSADE_API GlissadeStatus glissade_vector_to_engine(GlissadeEngine engine, const double vector[3], double out[3]);
-GLISSADE_API GlissadeStatus glissade_vector_from_engine(GlissadeEngine engine, const double vector[3], double out[3]);
+GLISSADE_API GlissadeStatus glissade_vector_to_engine(int32_t engine, const double vector[3], double out[3]);
+GLISSADE_API GlissadeStatus glissade_vector_from_engine(int32_t engine, const double vector[3], double out[3]);
 
 /* ---- Scenes. Objects are numbered in the order in which they are added. */
 

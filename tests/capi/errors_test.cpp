@@ -65,7 +65,7 @@ TEST_F(BoxOnPlate, NumbersThatAreNone) {
   pose.qw = kNan;
   expect_invalid(glissade_pose_to_engine(GLISSADE_UNREAL, &pose, &pose), "pose");
   pose.qw = 1.0;
-  expect_invalid(glissade_pose_to_engine(static_cast<GlissadeEngine>(7), &pose, &pose), "engine is 7");
+  expect_invalid(glissade_pose_to_engine(7, &pose, &pose), "engine is 7");
   expect_invalid(glissade_simulation_advance(simulation, &pose, 1, kNan), "milliseconds");
   expect_invalid(glissade_simulation_advance(simulation, &pose, 1, -1.0), "milliseconds");
   expect_invalid(glissade_scene_set_friction(scene, kNan, 0.0), "at_rest");
