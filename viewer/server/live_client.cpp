@@ -21,7 +21,8 @@ LiveClient::LiveClient(beast::tcp_stream&& stream, std::function<void()> on_open
 }
 
 void LiveClient::start(const beast::http::request<beast::http::empty_body>& request, std::string first_frame) {
-  socket_.async_accept(request, [self = shared_from_this(), first = std::move(first_frame)](beast::error_code error) {
+  first_frame_ = std::move(first_frame);
+  socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) {
       self->has_ended_ = true;
       return;
@@ -29,12 +30,16 @@ void LiveClient::start(const beast::http::request<beast::http::empty_body>& requ
     self->is_open_ = true;
     self->on_open_();
     self->wait_for_message();
-    if (!first.empty()) self->offer(first);
+    if (!self->first_frame_.empty()) self->offer(std::exchange(self->first_frame_, {}));
   });
 }
 
 void LiveClient::offer(const std::string& frame) {
-  if (!is_open_ || has_ended_) return;
+  if (has_ended_) return;
+  if (!is_open_) {
+    first_frame_ = frame;
+    return;
+  }
   if (is_busy_ || is_writing_) {
     ++missed_;
     return;

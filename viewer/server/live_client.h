@@ -23,7 +23,8 @@ class LiveClient : public std::enable_shared_from_this<LiveClient> {
   /// Answers the request for the WebSocket; then sends `first_frame` unless it is empty.
   void start(const boost::beast::http::request<boost::beast::http::empty_body>& request, std::string first_frame);
 
-  /// Sends the frame, or counts it as missed if the last one has not been acknowledged.
+  /// Sends the frame, or counts it as missed if the last one has not been acknowledged. Until the connection is open,
+  /// the newest frame waits.
   void offer(const std::string& frame);
 
   /// Tells the page that the run has ended, and sends nothing more. `on_end` is called when the page has answered, or
@@ -41,7 +42,8 @@ class LiveClient : public std::enable_shared_from_this<LiveClient> {
   boost::beast::websocket::stream<boost::beast::tcp_stream, kCompresses> socket_;
   std::function<void()> on_open_;
   boost::beast::flat_buffer received_;
-  std::string frame_;  // in flight
+  std::string first_frame_;  // the newest frame until the connection is open
+  std::string frame_;        // in flight
   bool is_open_ = false;
   bool is_busy_ = false;     // a frame is not acknowledged yet
   bool is_writing_ = false;  // nor even sent
