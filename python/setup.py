@@ -1,4 +1,4 @@
-"""The wheel: `pip wheel --no-build-isolation python`. The compiled module is the target glissade_python of CMake."""
+"""The wheel: `pip wheel --no-build-isolation ./python`. The compiled module is the target glissade_python of CMake."""
 
 import pathlib
 import re

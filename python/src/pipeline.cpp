@@ -91,7 +91,7 @@ section 2.)")
           py::arg("threads") = 0,
           "capacity: most objects. greatest_distance: the largest distance of `step`, metres. threads: 0: one for each "
           "processor.")
-      .def("add", &add, py::arg("tree"), py::arg("X_WO") = py::none(),
+      .def("add", &add, py::arg("tree").none(false), py::arg("X_WO") = py::none(),
            "Adds an object at a pose and returns its number.")
       .def(
           "remove", [](Pipeline& of, std::uint64_t object) { of.with([&](Objects& all) { all.remove(object); }); },

@@ -194,8 +194,8 @@ void add_closest_points(py::module_& module) {
 
 void add_queries(py::module_& module) {
   add_closest_points(module);
-  const auto A = py::arg("tree_A");
-  const auto B = py::arg("tree_B");
+  const auto A = py::arg("tree_A").none(false);
+  const auto B = py::arg("tree_B").none(false);
   const auto poses = py::arg("X_AB");
   const auto only_names = py::kw_only();
   const auto coherent = py::arg("coherent") = false;

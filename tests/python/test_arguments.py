@@ -80,6 +80,17 @@ def test_values(cube, call, sentence):
     assert sentence in str(caught.value)
 
 
+def test_none_is_no_tree(cube):
+    for query in [glissade.intersects, glissade.pairs, glissade.distance, glissade.way_out]:
+        for trees in [(None, cube), (cube, None)]:
+            with pytest.raises(TypeError):
+                query(*trees, at(0, 0, 0))
+    with pytest.raises(TypeError):
+        glissade.pairs_within(None, cube, at(0, 0, 0), 0.1)
+    with pytest.raises(TypeError):
+        glissade.Pipeline(threads=1).add(None)
+
+
 def test_arrays_that_no_memory_holds(cube):
     huge = np.broadcast_to(np.float64(0), (2**45, 7))  # 2 PB, of which 8 bytes exist
     with pytest.raises(MemoryError):
