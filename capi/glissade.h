@@ -136,8 +136,9 @@ GLISSADE_API GlissadeStatus glissade_scene_object_count(GlissadeScene scene, siz
 GLISSADE_API GlissadeStatus glissade_scene_object(GlissadeScene scene, size_t object, GlissadeObject* out);
 
 /* ---- Simulation: the scene in motion, in calls of the caller, without devices. Deterministic. Parts are numbered in
- * the order of the scene's movable objects, and then its objects that move on their own. Bodies are numbered: first the
- * fixed ones, then the parts. While a server uses a simulation, only its numbers and names may be asked for. */
+ * the order of the scene's movable objects. Frames of a server have the objects that move on their own after them.
+ * Bodies are numbered: first the fixed ones, then the parts, then the objects that move on their own. While a server
+ * uses a simulation, only its numbers and names may be asked for. */
 
 typedef enum GlissadePartState {
   GLISSADE_PART_UNKNOWN = 0,    /* not yet reported */
@@ -195,12 +196,17 @@ GLISSADE_API GlissadeStatus glissade_simulation_body_name(GlissadeSimulation sim
  * and max_rotational_stiffness_Nm_per_rad. */
 typedef struct GlissadeDevice {
   double max_force_N, max_torque_Nm, max_joint_torque_Nm;
+  double max_power_W;      /* that force and torque put into the hand; 50 by default */
+  double max_mean_force_N; /* over about ten seconds; 0: max_force_N */
+  double max_force_rate_N_per_s, max_torque_rate_Nm_per_s, max_joint_torque_rate_Nm_per_s; /* 0: the usual rates */
+  double max_damping_Ns_per_m;
   double max_stiffness_N_per_m, max_rotational_stiffness_Nm_per_rad;
   double damping_Ns_per_m, rotational_damping_Nms_per_rad, joint_damping_Nms_per_rad; /* of the bare device */
   double friction_N, joint_friction_Nm;                                               /* of the bare device */
   double resolution_m, joint_resolution_rad; /* steps or noise of what it measures */
   double update_rate_Hz;                     /* calls of glissade_glove_command a second, 1 to 100000 */
   double delay_s;                            /* from measurement to force, in addition to the period */
+  double frozen_s;                           /* longest time with the same bits of a pose; 0: not checked */
   double max_speed_m_per_s, max_turn_rate_rad_per_s, workspace_radius_m;     /* beyond: an error of the tracker */
   double joint_lower_rad[GLISSADE_JOINTS], joint_upper_rad[GLISSADE_JOINTS]; /* both 0: there is no such joint */
 } GlissadeDevice;
@@ -250,8 +256,9 @@ GLISSADE_API GlissadeStatus glissade_reason_text(int32_t reasons, int64_t age_ns
 
 typedef struct GlissadeHandFrame {
   int32_t part;                    /* number of the part that the hand holds, or -1 */
-  int32_t reasons;                 /* why the device got less than the contacts demand */
-  double force_N[3], torque_Nm[3]; /* on the hand, in world axes; the torque about the origin of the held part */
+  int32_t reasons;                 /* why the loop sent less than the contacts demand, see glissade_reason_text */
+  int32_t glove_reasons, padding;  /* why the glove exerts less than the loop sent */
+  double force_N[3], torque_Nm[3]; /* that the loop sent, in world axes; the torque about the origin of the held part */
   double energy_J;                 /* that force and torque may still give to the hand */
   /* Of a hand with fingers: the visible hand, which enters no object. */
   GlissadePose X_WH;
@@ -296,7 +303,8 @@ GLISSADE_API GlissadeStatus glissade_server_stop(GlissadeServer server);
 GLISSADE_API GlissadeStatus glissade_server_free(GlissadeServer server);
 /* GLISSADE_FAILED, with the reason as the last error, if the loop has failed. Then the forces have faded. */
 GLISSADE_API GlissadeStatus glissade_server_check(GlissadeServer server);
-/* The newest frame, for a renderer at its own rate. Never waits for the loop. */
+/* The newest frame, for a renderer at its own rate. Never waits for the loop. Frames end when the loop fails, see
+ * glissade_server_check. After glissade_server_stop, the last frame shows no force. */
 GLISSADE_API GlissadeStatus glissade_server_frame(GlissadeServer server, GlissadeFrame* frame);
 GLISSADE_API GlissadeStatus glissade_server_statistics(GlissadeServer server, GlissadeStatistics* statistics);
 /* The hand takes this part, or lets go of its part, in the next tick. For hands without fingers. */

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -19,6 +21,8 @@ namespace glissade::c {
 namespace {
 
 using std::chrono::nanoseconds;
+
+constexpr std::int64_t kLatest_ns = std::numeric_limits<std::int64_t>::max() / 4;
 
 nanoseconds time_of(double seconds, const char* argument) {
   if (!(std::abs(seconds) < 1e9)) throw std::invalid_argument(std::string(argument) + " must be finite, below 1e9 s");
@@ -42,6 +46,13 @@ devices::DeviceDescriptor descriptor_of(const char* name, const GlissadeDevice& 
   descriptor.joint_resolution = device.joint_resolution_rad;
   descriptor.update_rate = device.update_rate_Hz;
   descriptor.delay = time_of(device.delay_s, "delay_s");
+  descriptor.max_power = device.max_power_W;
+  descriptor.max_mean_force = device.max_mean_force_N;
+  descriptor.max_force_rate = device.max_force_rate_N_per_s;
+  descriptor.max_torque_rate = device.max_torque_rate_Nm_per_s;
+  descriptor.max_joint_torque_rate = device.max_joint_torque_rate_Nm_per_s;
+  descriptor.max_damping = device.max_damping_Ns_per_m;
+  descriptor.frozen = time_of(device.frozen_s, "frozen_s");
   descriptor.max_speed = device.max_speed_m_per_s;
   descriptor.max_turn_rate = device.max_turn_rate_rad_per_s;
   descriptor.workspace_radius = device.workspace_radius_m;
@@ -62,11 +73,9 @@ geometry::PoseTrajectory script_of(const double* times_s, const GlissadePose* X_
 /// A call of the driver of a glove.
 template <typename Work>
 GlissadeStatus with_driven_glove(GlissadeGlove handle, const Work& work) noexcept {
-  return call([&] {
-    const std::shared_ptr<GloveObject> object = gloves().find(handle.id);
-    const std::lock_guard lock(object->mutex);
-    if (!object->relay) throw std::invalid_argument("the glove is simulated, so it drives itself");
-    work(*object->relay);
+  return call_with(gloves(), handle.id, [&](GloveObject& object) {
+    if (!object.relay) throw std::invalid_argument("the glove is simulated, so it drives itself");
+    work(*object.relay);
   });
 }
 
@@ -82,6 +91,7 @@ GlissadeStatus glissade_device_default(GlissadeDevice* device) {
     const devices::DeviceDescriptor usual;
     at(device, "device") = {};
     device->update_rate_Hz = usual.update_rate;
+    device->max_power_W = usual.max_power;
     device->max_speed_m_per_s = usual.max_speed;
     device->max_turn_rate_rad_per_s = usual.max_turn_rate;
     device->workspace_radius_m = usual.workspace_radius;
@@ -123,7 +133,10 @@ GlissadeStatus glissade_glove_free(GlissadeGlove glove) {
 GlissadeStatus glissade_glove_put(GlissadeGlove glove, const GlissadeGloveState* given) {
   return with_driven_glove(glove, [&](devices::RelayGlove& relay) {
     devices::GloveState state;
-    state.time = nanoseconds(at(given, "state").time_ns);
+    // The envelope adds and subtracts times.
+    if (at(given, "state").time_ns > kLatest_ns || given->time_ns < -kLatest_ns)
+      throw std::invalid_argument("time_ns is beyond 73 years");
+    state.time = nanoseconds(given->time_ns);
     state.X_WH = pose_of(given->X_WH, "X_WH");
     state.v_WH = vector_of(given->velocity_m_per_s, "velocity_m_per_s");
     state.w_WH = vector_of(given->angular_velocity_rad_per_s, "angular_velocity_rad_per_s");

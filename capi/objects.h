@@ -22,6 +22,7 @@
 #include <glissade/simulation/scene.h>
 #include <glissade/simulation/simulation.h>
 
+#include "call.h"
 #include "handles.h"
 
 namespace glissade::c {
@@ -81,7 +82,7 @@ struct GloveObject {
 
 struct ServerObject {
   std::mutex mutex;
-  // What the server uses lives as long as the server, whoever frees it.
+  // A server keeps its simulation and its gloves, even if their handles are freed.
   std::shared_ptr<SimulationObject> simulation;
   std::vector<std::shared_ptr<GloveObject>> gloves;
   std::vector<Claim> claims;  ///< until the server stops
@@ -95,5 +96,15 @@ Handles<SceneObject>& scenes();
 Handles<SimulationObject>& simulations();
 Handles<GloveObject>& gloves();
 Handles<ServerObject>& servers();
+
+/// Runs work(object) while no other call uses the object of this handle.
+template <typename Object, typename Work>
+GlissadeStatus call_with(Handles<Object>& all, std::uint64_t id, const Work& work) noexcept {
+  return call([&] {
+    const std::shared_ptr<Object> object = all.find(id);
+    const std::lock_guard lock(object->mutex);
+    work(*object);
+  });
+}
 
 }  // namespace glissade::c

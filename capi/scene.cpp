@@ -24,11 +24,7 @@ constexpr auto kMostCount = static_cast<std::size_t>(std::numeric_limits<std::in
 /// A call that changes or reads a scene.
 template <typename Work>
 GlissadeStatus with_scene(GlissadeScene handle, const Work& work) noexcept {
-  return call([&] {
-    const std::shared_ptr<SceneObject> object = scenes().find(handle.id);
-    const std::lock_guard lock(object->mutex);
-    work(object->scene);
-  });
+  return call_with(scenes(), handle.id, [&](SceneObject& object) { work(object.scene); });
 }
 
 geometry::TriangleMesh mesh_of(const double* vertices, std::size_t vertex_count, const std::int32_t* triangles,
@@ -81,7 +77,10 @@ using namespace glissade::c;
 using namespace glissade;
 
 GlissadeStatus glissade_scene_new(GlissadeScene* scene) {
-  return call([&] { at(scene, "scene").id = scenes().add(std::make_shared<SceneObject>()); });
+  return call([&] {
+    at(scene, "scene");
+    scene->id = scenes().add(std::make_shared<SceneObject>());
+  });
 }
 
 GlissadeStatus glissade_scene_read(const char* path, GlissadeScene* scene) {

@@ -12,16 +12,6 @@ namespace glissade::c {
 
 namespace {
 
-/// A call for the one that owns the server.
-template <typename Work>
-GlissadeStatus with_server(GlissadeServer handle, const Work& work) noexcept {
-  return call([&] {
-    const std::shared_ptr<ServerObject> object = servers().find(handle.id);
-    const std::lock_guard lock(object->mutex);
-    work(*object);
-  });
-}
-
 /// What a renderer sees before the first tick.
 devices::HapticState at_start(const simulation::Simulation& simulation, std::size_t hands) {
   const contact::MultiPartSliding& parts = simulation.engine().parts();
@@ -37,6 +27,7 @@ GlissadeHandFrame frame_of(const devices::HapticHandState& hand) noexcept {
   GlissadeHandFrame frame{};
   frame.part = hand.part;
   frame.reasons = devices::to_bits(hand.reasons);
+  frame.glove_reasons = devices::to_bits(hand.glove_reasons);
   copy(hand.force_W, frame.force_N);
   copy(hand.torque_V_W, frame.torque_Nm);
   frame.energy_J = devices::energy_left(hand);
@@ -68,6 +59,18 @@ void write(const devices::HapticState& state, GlissadeFrame& frame) noexcept {
     copy(X_WV * contact.p_V.cast<double>(), frame.contacts[c].point_m);
     copy(contact.n_W.cast<double>(), frame.contacts[c].normal);
   }
+}
+
+/// The last frame, without the force that has faded since.
+void show_end(ServerObject& object) {
+  const std::lock_guard lock(object.frame_mutex);
+  devices::HapticState last = object.frames.latest();
+  for (devices::HapticHandState& hand : last.hands) {
+    hand.force_W.setZero();
+    hand.torque_V_W.setZero();
+    hand.reasons.is_stopped = true;
+  }
+  object.frames.publish(last);
 }
 
 /// Claims the simulation and the gloves, and starts the loop. The mutex of the simulation is held.
@@ -112,9 +115,10 @@ GlissadeStatus glissade_server_start(GlissadeSimulation simulation, const Glissa
 }
 
 GlissadeStatus glissade_server_stop(GlissadeServer server) {
-  return with_server(server, [](ServerObject& object) {
+  return call_with(servers(), server.id, [](ServerObject& object) {
     object.server->stop();
     object.claims.clear();
+    show_end(object);
   });
 }
 
@@ -128,7 +132,7 @@ GlissadeStatus glissade_server_free(GlissadeServer server) {
 }
 
 GlissadeStatus glissade_server_check(GlissadeServer server) {
-  return with_server(server, [](const ServerObject& object) {
+  return call_with(servers(), server.id, [](const ServerObject& object) {
     if (object.server->has_failed()) throw std::runtime_error(object.server->failure());
   });
 }
@@ -143,7 +147,7 @@ GlissadeStatus glissade_server_frame(GlissadeServer server, GlissadeFrame* frame
 }
 
 GlissadeStatus glissade_server_statistics(GlissadeServer server, GlissadeStatistics* statistics) {
-  return with_server(server, [&](const ServerObject& object) {
+  return call_with(servers(), server.id, [&](const ServerObject& object) {
     const realtime::ThreadScheduling& scheduling = object.server->scheduling();
     at(statistics, "statistics") = {.ticks = object.server->ticks(),
                                     .late_ticks = object.server->late_ticks(),
@@ -153,7 +157,7 @@ GlissadeStatus glissade_server_statistics(GlissadeServer server, GlissadeStatist
 }
 
 GlissadeStatus glissade_server_grasp(GlissadeServer server, size_t hand, size_t part) {
-  return with_server(server, [&](ServerObject& object) {
+  return call_with(servers(), server.id, [&](ServerObject& object) {
     if (!object.server->grasp(hand, part))
       throw std::invalid_argument("hand " + std::to_string(hand) + " cannot take part " + std::to_string(part) +
                                   ": one of them does not exist, or the hand has fingers");
@@ -161,7 +165,7 @@ GlissadeStatus glissade_server_grasp(GlissadeServer server, size_t hand, size_t 
 }
 
 GlissadeStatus glissade_server_release(GlissadeServer server, size_t hand) {
-  return with_server(server, [&](ServerObject& object) {
+  return call_with(servers(), server.id, [&](ServerObject& object) {
     if (!object.server->release(hand)) throw std::invalid_argument("there is no hand " + std::to_string(hand));
   });
 }

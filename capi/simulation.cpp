@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include <glissade/base/require.h>
-
 #include "call.h"
 #include "convert.h"
 #include "objects.h"
@@ -20,11 +18,9 @@ namespace {
 /// A call for which no server may use the simulation.
 template <typename Work>
 GlissadeStatus with_simulation(GlissadeSimulation handle, const Work& work) noexcept {
-  return call([&] {
-    const std::shared_ptr<SimulationObject> object = simulations().find(handle.id);
-    const std::lock_guard lock(object->mutex);
-    if (object->in_use) throw std::invalid_argument("the simulation is in use by a server");
-    work(object->simulation);
+  return call_with(simulations(), handle.id, [&](SimulationObject& object) {
+    if (object.in_use) throw std::invalid_argument("the simulation is in use by a server");
+    work(object.simulation);
   });
 }
 
@@ -73,7 +69,6 @@ GlissadeStatus glissade_simulation_free(GlissadeSimulation simulation) {
 GlissadeStatus glissade_simulation_advance(GlissadeSimulation handle, const GlissadePose* ghosts, size_t ghost_count,
                                            double milliseconds) {
   return with_simulation(handle, [&](simulation::Simulation& simulation) {
-    base::require_positive("milliseconds", milliseconds);
     array(ghosts, ghost_count, "ghosts");
     std::vector<Eigen::Isometry3d> X_WG(std::min(ghost_count, simulation.part_count() + 1));  // the wrong count is told
     for (std::size_t i = 0; i < X_WG.size(); ++i)

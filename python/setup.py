@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 
 class BuildByCMake(build_ext):
     def build_extension(self, extension):
-        folder = pathlib.Path(self.build_temp).resolve() / "cmake"
+        folder = ROOT / "build" / "wheel"
         options = ["-DGLISSADE_PYTHON=ON", "-DGLISSADE_BUILD_PROGRAM=OFF", f"-DPython_EXECUTABLE={sys.executable}"]
         subprocess.run(["cmake", "--preset", "release", "-B", folder, *options], cwd=ROOT, check=True)
         subprocess.run(["cmake", "--build", folder, "--target", "glissade_python"], check=True)

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -19,6 +20,11 @@ double greatest_margin(const SceneBodies& bodies, const grasping::GraspSimulatio
   for (const contact::Obstacle& obstacle : bodies.obstacles)
     margin = std::max(margin, obstacle.margin.value_or(0.0));
   return engine.hand_count() > 0 ? std::max(margin, grasping::ClaspRules{}.margin) : margin;
+}
+
+void check_time(double milliseconds) {
+  if (std::isfinite(milliseconds) && milliseconds >= 0.0) return;
+  throw std::invalid_argument("milliseconds must be finite and not negative");
 }
 
 std::string counted(std::size_t count, const std::string& noun) {
@@ -44,6 +50,7 @@ Simulation::Simulation(const Scene& scene)
 }
 
 void Simulation::advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds) {
+  check_time(milliseconds);
   if (engine_.hand_count() > 0)
     throw std::invalid_argument(bodies_.source + " has hands, which lead the parts: advance it with their postures");
   if (X_WG.size() != part_count())
@@ -57,6 +64,7 @@ void Simulation::advance(std::span<const Eigen::Isometry3d> X_WG, double millise
 }
 
 void Simulation::advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds) {
+  check_time(milliseconds);
   if (hands.size() != engine_.hand_count())
     throw std::invalid_argument(bodies_.source + ": " + counted(hands.size(), "posture") + " for " +
                                 counted(engine_.hand_count(), "hand"));

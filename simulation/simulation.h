@@ -33,13 +33,15 @@ class Simulation {
   /// Moves each part towards its ghost for `milliseconds`. X_WG has one pose for each part that can be held. Call this
   /// once per millisecond of motion. A late caller passes the full elapsed time as `milliseconds`. If a
   /// `haptics::HapticServer` has released a part, this call grasps the part again. Throws std::invalid_argument if the
-  /// number of poses is wrong, and for a scene with hands, because there the hands lead the parts.
+  /// number of poses is wrong, if the time is negative or not finite, and for a scene with hands, because there the
+  /// hands lead the parts.
   void advance(std::span<const Eigen::Isometry3d> X_WG, double milliseconds = 1.0);
   /// Like the other `advance`, for a scene with one part. Also throws for a scene with several parts.
   void advance(const Eigen::Isometry3d& X_WG, double milliseconds = 1.0) { advance({&X_WG, 1}, milliseconds); }
   /// Moves each hand of the scene towards its posture for `milliseconds`, and moves the parts with the hands.
   /// std::nullopt means that the tracking of the hand is lost. Do not call this function after a
-  /// `haptics::HapticServer` has led the hands. Throws std::invalid_argument if the number of postures is wrong.
+  /// `haptics::HapticServer` has led the hands. Throws std::invalid_argument if the number of postures is wrong, and if
+  /// the time is negative or not finite.
   void advance(std::span<const std::optional<grasping::Posture>> hands, double milliseconds = 1.0);
 
   std::size_t part_count() const { return bodies_.parts.size(); }

@@ -49,11 +49,14 @@ public struct GlissadeContact {
 [StructLayout(LayoutKind.Sequential)]
 public struct GlissadeDevice {
   public double max_force_N, max_torque_Nm, max_joint_torque_Nm;
+  public double max_power_W, max_mean_force_N;
+  public double max_force_rate_N_per_s, max_torque_rate_Nm_per_s, max_joint_torque_rate_Nm_per_s;
+  public double max_damping_Ns_per_m;
   public double max_stiffness_N_per_m, max_rotational_stiffness_Nm_per_rad;
   public double damping_Ns_per_m, rotational_damping_Nms_per_rad, joint_damping_Nms_per_rad;
   public double friction_N, joint_friction_Nm;
   public double resolution_m, joint_resolution_rad;
-  public double update_rate_Hz, delay_s;
+  public double update_rate_Hz, delay_s, frozen_s;
   public double max_speed_m_per_s, max_turn_rate_rad_per_s, workspace_radius_m;
   [MarshalAs(UnmanagedType.ByValArray, SizeConst = Glissade.Joints)] public double[] joint_lower_rad, joint_upper_rad;
 }
@@ -78,7 +81,7 @@ public struct GlissadeGloveCommand {
 
 [StructLayout(LayoutKind.Sequential)]
 public struct GlissadeHandFrame {
-  public int part, reasons;
+  public int part, reasons, glove_reasons, padding;
   [MarshalAs(UnmanagedType.ByValArray, SizeConst = 3)] public double[] force_N, torque_Nm;
   public double energy_J;
   public GlissadePose X_WH;

@@ -1,5 +1,6 @@
 #include "arrays.h"
 
+#include <algorithm>
 #include <cmath>
 #include <new>
 #include <stdexcept>
@@ -82,6 +83,12 @@ Numbers numbers_from(const py::object& argument, const std::string& name) {
   Numbers numbers = Numbers::ensure(array);
   if (!numbers) throw std::bad_alloc();
   return numbers;
+}
+
+void check_finite(const Numbers& numbers, const std::string& name) {
+  const double* const end = numbers.data() + numbers.size();
+  if (!std::all_of(numbers.data(), end, [](double number) { return std::isfinite(number); }))
+    throw std::invalid_argument(name + " has a number that is not finite");
 }
 
 Poses poses_from(const py::object& argument, const std::string& name) {

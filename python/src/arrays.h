@@ -23,6 +23,9 @@ using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
 /// The argument as numbers, whatever its real type and its strides.
 Numbers numbers_from(const py::object& argument, const std::string& name);
 
+/// Throws std::invalid_argument for a number that is not finite.
+void check_finite(const Numbers& numbers, const std::string& name);
+
 /// One pose, or several in an array.
 struct Poses {
   std::vector<Eigen::Isometry3d> X;

@@ -11,6 +11,9 @@
 #include <vector>
 
 #include <pybind11/pybind11.h>
+#include <unistd.h>
+
+#include "unlocked.h"
 
 namespace glissade::python {
 
@@ -20,8 +23,10 @@ namespace {
 
 using Worker = std::function<void(std::int64_t)>;
 
-/// Items that a thread takes at once. Neighbours stay together, which coherent workspaces profit from.
-constexpr std::int64_t kBlock = 32;
+/// Most items that a thread takes at once. Neighbours stay together, which coherent workspaces profit from.
+constexpr std::int64_t kGreatestBlock = 32;
+/// Blocks of each thread, at least, so that the threads end together.
+constexpr std::int64_t kBlocksOfThread = 8;
 
 /// How often the calling thread looks for signals.
 constexpr std::chrono::milliseconds kSignalPeriod{50};
@@ -29,20 +34,24 @@ constexpr std::chrono::milliseconds kSignalPeriod{50};
 /// The work that threads share, and the first of its failures.
 class SharedWork {
  public:
-  explicit SharedWork(std::int64_t count) : count_(count), failed_at_(count) {}
+  SharedWork(std::int64_t count, int threads)
+      : count_(count),
+        block_(std::clamp<std::int64_t>(count / (kBlocksOfThread * threads), 1, kGreatestBlock)),
+        failed_at_(count) {}
 
-  /// Works until nothing is left. `goes_on` is called after each block.
+  /// Works until nothing is left. `goes_on` is called after each item.
   template <typename GoesOn>
   void take_part(const std::function<Worker()>& make_worker, GoesOn goes_on) noexcept {
     std::int64_t item = 0;
     try {
       const Worker worker = make_worker();
       while (!ends_.load(std::memory_order_relaxed)) {
-        item = next_.fetch_add(kBlock);
+        item = next_.fetch_add(block_);
         if (item >= count_) return;
-        for (const std::int64_t end = std::min(count_, item + kBlock); item < end; ++item)
+        for (const std::int64_t end = std::min(count_, item + block_); item < end; ++item) {
           worker(item);
-        goes_on();
+          goes_on();
+        }
       }
     } catch (...) {
       fail(item);
@@ -64,6 +73,7 @@ class SharedWork {
   }
 
   std::int64_t count_;
+  std::int64_t block_;
   std::atomic<std::int64_t> next_{0};
   std::atomic<bool> ends_{false};
   std::mutex mutex_;
@@ -74,6 +84,7 @@ class SharedWork {
 }  // namespace
 
 void SignalCheck::operator()() {
+  if (gettid() != getpid()) return;  // only the main thread handles signals
   const auto now = std::chrono::steady_clock::now();
   if (now < next_) return;
   next_ = now + kSignalPeriod;
@@ -83,11 +94,10 @@ void SignalCheck::operator()() {
 
 void for_each(std::int64_t count, int threads, const std::function<Worker()>& make_worker) {
   if (threads < 1) throw std::invalid_argument("threads must be at least 1, not " + std::to_string(threads));
-  const py::gil_scoped_release unlocked;
-  SharedWork shared(count);
-  const std::int64_t blocks = (count + kBlock - 1) / kBlock;
+  const Unlocked unlocked;
+  SharedWork shared(count, threads);
   std::vector<std::jthread> others;
-  for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, blocks); ++i)
+  for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, count); ++i)
     others.emplace_back([&] { shared.take_part(make_worker, [] {}); });
   shared.take_part(make_worker, SignalCheck());
   others.clear();  // joins

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <utility>
 
-#include <pybind11/pybind11.h>
+#include "unlocked.h"
 
 namespace glissade::python {
 
@@ -20,13 +20,13 @@ class Guarded {
   /// The result of work(object), which must touch no Python object.
   template <typename Work>
   auto with(const Work& work) {
-    const pybind11::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     const std::lock_guard lock(mutex_);
     return work(object_);
   }
 
  private:
-  std::mutex mutex_;
+  std::recursive_mutex mutex_;  // recursive: a signal handler may use the object that its thread works on
   Object object_;
 };
 

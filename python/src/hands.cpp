@@ -30,6 +30,7 @@ Posture posture(const py::object& X_WR, const py::object& angles) {
   const Numbers values = numbers_from(angles, "angles");
   if (values.ndim() != 1 || values.shape(0) != hands::kJoints)
     throw std::invalid_argument("angles must have the shape (22,), in the order of JOINT_NAMES");
+  check_finite(values, "angles");
   posture.values.assign(values.data(), values.data() + values.size());
   return posture;
 }

@@ -14,7 +14,9 @@
 #include <glissade/simulation/scene.h>
 
 #include "arrays.h"
+#include "mesh_files.h"
 #include "module.h"
+#include "unlocked.h"
 
 namespace glissade::python {
 
@@ -70,14 +72,12 @@ SceneMesh mesh_of(const py::object& other) {
 }
 
 SceneMesh read_mesh(const py::object& path, double scale, bool weld) {
-  const auto file = py::module_::import("os").attr("fsdecode")(path).cast<std::string>();
+  const std::string file = path_from(path);
   SceneMesh mesh = [&] {
-    const py::gil_scoped_release unlocked;
+    const Unlocked unlocked;
     return SceneMesh(file, scale, weld);
   }();
-  const py::object warn = py::module_::import("warnings").attr("warn");
-  for (const std::string& warning : mesh.warnings())
-    warn(warning, py::arg("stacklevel") = 2);
+  warn_of(mesh);
   return mesh;
 }
 
@@ -98,7 +98,15 @@ py::array_t<std::int32_t> triangles_of(const SceneMesh& mesh) {
 }
 
 SceneMesh shape(const std::string& name, const py::kwargs& parameters) {
-  return SceneMesh::of_shape(name, parameters.cast<std::map<std::string, double>>());
+  std::map<std::string, double> values;
+  for (const auto& [key, value] : parameters) {
+    try {
+      values[key.cast<std::string>()] = value.cast<double>();
+    } catch (const py::cast_error&) {
+      throw py::type_error(key.cast<std::string>() + " is no number");
+    }
+  }
+  return SceneMesh::of_shape(name, values);
 }
 
 }  // namespace
@@ -139,7 +147,7 @@ Parameters that are not given have their defaults. Raises ValueError, listing th
 Build one for each mesh, and share it. Any number of threads may query a tree at once. Founding paper, section 2.1.)")
       .def(
           py::init([](const SceneMesh& mesh) {
-            const py::gil_scoped_release unlocked;
+            const Unlocked unlocked;
             return std::make_shared<DopTree>(mesh.shared());
           }),
           py::arg("mesh"),

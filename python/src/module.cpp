@@ -1,8 +1,31 @@
 #include "module.h"
 
+#include <exception>
+#include <stdexcept>
+#include <string_view>
+
+namespace {
+
+/// Wrong arguments are ValueErrors. Their sentences may have names of files, which need not be UTF-8.
+void translate(std::exception_ptr exception) {
+  try {
+    std::rethrow_exception(exception);
+  } catch (const std::invalid_argument& error) {
+    const std::string_view text = error.what();
+    PyObject* const sentence =
+        PyUnicode_DecodeUTF8(text.data(), static_cast<Py_ssize_t>(text.size()), "backslashreplace");
+    if (sentence == nullptr) return;
+    PyErr_SetObject(PyExc_ValueError, sentence);
+    Py_DECREF(sentence);
+  }
+}
+
+}  // namespace
+
 PYBIND11_MODULE(_glissade, module) {
   module.doc() = "The compiled part of glissade.";
   module.attr("__version__") = GLISSADE_VERSION;
+  pybind11::register_local_exception_translator(&translate);
   pybind11::options options;
   options.disable_enum_members_docstring();
   glissade::python::add_meshes(module);

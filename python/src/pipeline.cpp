@@ -35,7 +35,8 @@ class Objects {
   void move(const std::vector<std::uint64_t>& objects, const std::vector<Eigen::Isometry3d>& X_WO) {
     for (std::size_t i = 0; i < objects.size(); ++i) {
       if (!world_.move(id_of(objects[i]), X_WO[i]))
-        throw std::invalid_argument("object " + std::to_string(objects[i]) + " was removed, or its pose is not rigid");
+        throw std::invalid_argument("object " + std::to_string(objects[i]) +
+                                    " is not in this pipeline; those before it have moved");
     }
   }
 

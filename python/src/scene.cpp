@@ -11,7 +11,9 @@
 #include <glissade/simulation/scene.h>
 
 #include "arrays.h"
+#include "mesh_files.h"
 #include "module.h"
+#include "unlocked.h"
 
 namespace glissade::python {
 
@@ -23,19 +25,16 @@ using simulation::SceneMesh;
 using simulation::SceneMotion;
 using simulation::SceneObject;
 
-std::string file_name(const py::object& path) {
-  return py::module_::import("os").attr("fsdecode")(path).cast<std::string>();
-}
-
 std::chrono::nanoseconds nanoseconds_from(double time_s, const std::string& name) {
   if (!(std::abs(time_s) <= 1e9)) throw std::invalid_argument(name + " is beyond 1e9 s");
   return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s));
 }
 
 geometry::PoseTrajectory trajectory_from(const py::object& motion) {
-  const auto [times, X_WB] = motion.cast<std::pair<py::object, py::object>>();
-  const Numbers times_s = numbers_from(times, "motion[0]");
-  const Poses poses = poses_from(X_WB, "motion[1]");
+  if (!py::isinstance<py::sequence>(motion) || py::len(motion) != 2)
+    throw py::type_error("motion must be the times and the poses");
+  const Numbers times_s = numbers_from(motion[py::int_(0)], "motion[0]");
+  const Poses poses = poses_from(motion[py::int_(1)], "motion[1]");
   if (times_s.ndim() != 1 || poses.shape.size() != 1 || times_s.shape(0) != poses.shape[0])
     throw std::invalid_argument("motion must be n times (seconds) and n poses");
   std::vector<geometry::TimedPose> rows;
@@ -62,10 +61,31 @@ void add_object(Scene& scene, const std::string& name, const SceneMesh& mesh, co
   scene.objects.push_back(std::move(object));
 }
 
-Scene parsed(const std::string& text, const std::string& source, const py::object& base_folder) {
-  const std::string folder = file_name(base_folder);
-  const py::gil_scoped_release unlocked;
-  return simulation::parse_scene(text, source, folder);
+/// The scene that read() returns. Its meshes warn of what was skipped in their files.
+template <typename Read>
+Scene read_with(const Read& read) {
+  Scene scene = [&] {
+    const Unlocked unlocked;
+    return read();
+  }();
+  for (const SceneObject& object : scene.objects)
+    warn_of(object.mesh);
+  return scene;
+}
+
+Scene read(const py::object& path) {
+  return read_with([file = path_from(path)] { return simulation::read_scene(file); });
+}
+
+Scene parse(const std::string& text, const std::string& source, const py::object& base_folder) {
+  return read_with([&, folder = path_from(base_folder)] { return simulation::parse_scene(text, source, folder); });
+}
+
+/// Of a copy of the scene: other threads may change the scene meanwhile.
+void write(Scene scene, const py::object& path) {
+  const std::string file = path_from(path);
+  const Unlocked unlocked;
+  simulation::write_scene(scene, file);
 }
 
 contact::Metaphor metaphor_from(const std::string& name) {
@@ -126,25 +146,12 @@ void add_scene(py::module_& module) {
   add_rules(module);
   py::class_<Scene>(module, "Scene", "Objects with names, hands, and the rules of contact, before anything moves.")
       .def(py::init<>())
-      .def_static(
-          "read",
-          [](const py::object& path) {
-            const std::string file = file_name(path);
-            const py::gil_scoped_release unlocked;
-            return simulation::read_scene(file);
-          },
-          py::arg("path"), "Reads a scene file with its meshes. Raises ValueError with file, line and key.")
-      .def_static("parse", &parsed, py::arg("text"), py::arg("source") = "the scene", py::arg("base_folder") = ".",
+      .def_static("read", &read, py::arg("path"),
+                  "Reads a scene file with its meshes. Raises ValueError with file, line and key.")
+      .def_static("parse", &parse, py::arg("text"), py::arg("source") = "the scene", py::arg("base_folder") = ".",
                   "Like `read`, for a text. Paths in the scene are relative to `base_folder`.")
-      .def(
-          "write",
-          [](Scene scene, const py::object& path) {  // a copy: other threads may change the scene meanwhile
-            const std::string file = file_name(path);
-            const py::gil_scoped_release unlocked;
-            simulation::write_scene(scene, file);
-          },
-          py::arg("path"),
-          "Writes a scene file, and files of the meshes that were given as arrays. Overwrites nothing that differs.")
+      .def("write", &write, py::arg("path"),
+           "Writes a scene file, and files of the meshes that were given as arrays. Overwrites nothing that differs.")
       .def("add", &add_object, py::arg("name"), py::arg("mesh"), py::arg("X_WB") = py::none(), py::kw_only(),
            py::arg("movable") = false, py::arg("motion") = py::none(), py::arg("margin_m") = py::none(),
            py::arg("compliance_point_B") = py::none(), py::arg("giving_way") = std::vector<std::int32_t>{},

@@ -53,7 +53,7 @@ auto of_hand(GuardedSimulation& guarded, std::size_t hand, const Read& read) {
 
 std::unique_ptr<GuardedSimulation> make(const Scene& scene) {
   const Scene own = scene;  // other threads may change the scene meanwhile
-  const py::gil_scoped_release unlocked;
+  const Unlocked unlocked;
   return std::make_unique<GuardedSimulation>(own);
 }
 

@@ -63,7 +63,7 @@ py::tuple state_names() {
   return py::tuple(names);
 }
 
-Track table_of(const Rows& rows, py::ssize_t count, py::ssize_t parts, bool has_axis_of_parts) {
+Track table_of(const Rows& rows, py::ssize_t count, py::ssize_t parts, bool has_axis_of_parts, bool has_clearance) {
   const std::vector<py::ssize_t> shape =
       has_axis_of_parts ? std::vector<py::ssize_t>{count, parts} : std::vector<py::ssize_t>{count};
   Track track{.X_WG = to_array(rows.X_WG, shape),
@@ -73,7 +73,7 @@ Track table_of(const Rows& rows, py::ssize_t count, py::ssize_t parts, bool has_
               .state = py::module_::import("numpy").attr("take")(state_names(), numbers(rows.states, shape)),
               .pushing = numbers(rows.pushing, shape),
               .clearance = std::nullopt};
-  if (!rows.clearances.empty()) track.clearance = numbers(rows.clearances, {count});
+  if (has_clearance) track.clearance = numbers(rows.clearances, {count});
   return track;
 }
 
@@ -95,7 +95,7 @@ Track follow(GuardedSimulation& guarded, const py::object& poses, double millise
       check();
     }
   });
-  return table_of(rows, count, static_cast<py::ssize_t>(each), X_WG.shape.size() == 2);
+  return table_of(rows, count, static_cast<py::ssize_t>(each), X_WG.shape.size() == 2, with_clearance);
 }
 
 Track follow_hands(GuardedSimulation& guarded, const py::object& poses, const py::object& joint_angles,
@@ -111,15 +111,16 @@ Track follow_hands(GuardedSimulation& guarded, const py::object& poses, const py
         "X_WR must have the shape (n, …) or (n, hands, …), and angles (n, 22) or (n, hands, 22)");
   const py::ssize_t count = X_WR.shape[0];
   const std::size_t each = has_axis_of_hands ? static_cast<std::size_t>(X_WR.shape[1]) : 1;
+  check_finite(angles, "angles");
   Rows rows;
-  const double* const all_angles = angles.data();
+  const std::vector<double> all_angles(angles.data(), angles.data() + angles.size());  // threads may change the array
   const std::size_t parts = guarded.with([&](Simulation& simulation) {
     SignalCheck check;
     std::vector<std::optional<grasping::Posture>> postures(each);
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
       for (std::size_t hand = 0; hand < each; ++hand) {
         const std::size_t row = i * each + hand;
-        const double* const values = all_angles + row * hands::kJoints;
+        const double* const values = all_angles.data() + row * hands::kJoints;
         postures[hand] = grasping::Posture{X_WR.X[row], std::vector<double>(values, values + hands::kJoints)};
       }
       simulation.advance(postures, milliseconds);
@@ -128,7 +129,7 @@ Track follow_hands(GuardedSimulation& guarded, const py::object& poses, const py
     }
     return simulation.part_count();
   });
-  return table_of(rows, count, static_cast<py::ssize_t>(parts), parts > 1);
+  return table_of(rows, count, static_cast<py::ssize_t>(parts), parts > 1, false);
 }
 
 void add_track(py::module_& module) {

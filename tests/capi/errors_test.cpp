@@ -84,11 +84,17 @@ TEST_F(BoxOnPlate, NumbersThatAreNone) {
   glissade_glove_state_default(&state);
   state.joint_angles_rad[21] = kNan;
   expect_invalid(glissade_glove_put(glove, &state), "joint_angles_rad");
+  glissade_glove_state_default(&state);
+  state.time_ns = INT64_MIN;
+  expect_invalid(glissade_glove_put(glove, &state), "time_ns");
   glissade_glove_free(glove);
   GlissadeDevice device;
   glissade_device_default(&device);
   GlissadeGlove refused{};
   device.max_force_N = -1.0;
+  expect_invalid(glissade_glove_new("my glove", &device, &refused), "my glove");
+  glissade_device_default(&device);
+  device.max_mean_force_N = -1.0;
   expect_invalid(glissade_glove_new("my glove", &device, &refused), "my glove");
   const double times_s[] = {0.0, kNan};
   const GlissadePose hand[] = {at_height(0), at_height(0)};

@@ -109,7 +109,13 @@ TEST_F(BoxOnPlate, AForceReachesTheDriverAndEndsWithTheLoop) {
   for (int i = 0; i < 20'000 && command.force_N[2] < 1.0; ++i)
     period();
   EXPECT_GE(command.force_N[2], 1.0) << "upwards, from the plate";
+  GlissadeFrame frame;
+  ASSERT_C(glissade_server_frame(server, &frame));
+  EXPECT_GT(frame.hands[0].force_N[2], 0.0);
   ASSERT_C(glissade_server_stop(server));
+  ASSERT_C(glissade_server_frame(server, &frame));
+  EXPECT_EQ(frame.hands[0].force_N[2], 0.0) << "a renderer draws no force that has gone";
+  EXPECT_NE(frame.hands[0].reasons, 0);
   for (int i = 0; i < 20'000 && command.force_N[2] > 0.0; ++i)
     period();
   EXPECT_EQ(command.force_N[2], 0.0);

@@ -66,6 +66,9 @@ def test_arrays_of_any_stride_type_and_order_are_read(cube):
         (lambda cube: glissade.Mesh.shape("box", x=1.0), "has no parameter 'x'"),
         (lambda cube: glissade.HandShape(side="both"), "side must be 'right' or 'left', not 'both'"),
         (lambda cube: glissade.Posture(at(0, 0, 0), np.zeros(21)), "angles must have the shape (22,)"),
+        (lambda cube: glissade.Posture(at(0, 0, 0), np.full(22, np.nan)), "angles has a number that is not finite"),
+        (lambda cube: glissade.Simulation(box_on_plate()).advance(at(0, 0, 0), np.nan), "milliseconds must be finite"),
+        (lambda cube: glissade.Simulation(box_on_plate()).follow([at(0, 0, 0)], -1.0), "milliseconds must be finite"),
         (lambda cube: glissade.Scene.parse("objects: 3", "mine.yaml"), "mine.yaml"),
         (lambda cube: glissade.Scene().add("a", glissade.Mesh.shape("box"), motion=([0, 1], [at(0, 0, 0)])), "motion"),
         (lambda cube: glissade.Simulation(glissade.Scene()), "no object is movable"),
@@ -78,6 +81,35 @@ def test_values(cube, call, sentence):
     with pytest.raises(ValueError) as caught:
         call(cube)
     assert sentence in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    "call, sentence",
+    [
+        (lambda: glissade.Mesh.shape("box", size_x_m="a"), "size_x_m is no number"),
+        (lambda: glissade.Mesh.read(5), "expected str, bytes or os.PathLike object, not int"),
+        (lambda: glissade.Scene().add("a", glissade.Mesh.shape("box"), motion=5), "motion must be the times and the poses"),
+        (lambda: glissade.Simulation(box_on_plate()).X_WV(-1), "X_WV"),
+    ],
+)
+def test_types(call, sentence):
+    with pytest.raises(TypeError) as caught:
+        call()
+    assert sentence in str(caught.value)
+
+
+def test_names_of_files_need_not_be_text():
+    with pytest.raises(ValueError, match=r"/no\\xff.stl: there is no such file"):
+        glissade.Mesh.read(b"/no\xff.stl")
+
+
+def test_a_warning_names_the_line_that_read_the_mesh(tmp_path):
+    (tmp_path / "mesh.obj").write_text("8 12\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
+    (tmp_path / "scene.yaml").write_text("objects:\n- {name: a, mesh: mesh.obj}\n- {name: b, mesh: mesh.obj}\n")
+    for read in [lambda: glissade.Mesh.read(tmp_path / "mesh.obj"), lambda: glissade.Scene.read(tmp_path / "scene.yaml")]:
+        with pytest.warns(UserWarning, match="1 unknown statement is skipped") as caught:
+            read()
+        assert caught[0].filename == __file__
 
 
 def test_none_is_no_tree(cube):

@@ -37,6 +37,11 @@ def test_a_path_in_one_call_is_the_path_step_by_step():
     assert (track.clearance > 0).all() and track.pushing[-1] > 0 and track.pushing[0] == 0
 
 
+def test_a_path_without_poses_is_a_table_without_rows():
+    track = glissade.Simulation(box_on_plate()).follow(np.zeros((0, 7)), clearance=True)
+    assert len(track) == 0 and track.X_WV.shape == (0, 4, 4) and track.clearance.shape == (0,)
+
+
 def test_friction_holds_back_what_slides():
     def height_and_lag(friction):
         scene = box_on_plate()

@@ -1,6 +1,9 @@
 """Several Python threads, and Ctrl-C."""
 
+import pathlib
 import signal
+import subprocess
+import sys
 import threading
 import time
 from concurrent.futures import ThreadPoolExecutor
@@ -59,3 +62,42 @@ def test_ctrl_c_ends_a_long_query(torus, ball, threads):
     threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt):
         glissade.distance(torus, ball, poses, threads=threads)
+
+
+def test_a_signal_handler_may_ask_the_simulation_that_moves():
+    simulation = glissade.Simulation(box_on_plate())
+    heights = []
+    signal.signal(signal.SIGALRM, lambda *_: heights.append(simulation.X_WV()[2, 3]))
+    signal.setitimer(signal.ITIMER_REAL, 0.05, 0.05)
+    try:
+        while len(heights) < 3:
+            simulation.follow(np.tile(at(0, 0, 0.017), (2000, 1)))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+    assert all(0.02 < height <= 0.03 for height in heights)
+
+
+@pytest.mark.parametrize("call", ["glissade.distance(ball, ball, poses)", "simulation.follow(poses)"])
+def test_the_program_ends_while_a_daemon_thread_works(call):
+    program = f"""
+import threading, time
+from conftest import *
+simulation = glissade.Simulation(box_on_plate())
+ball = glissade.Tree(glissade.Mesh.shape("sphere", radius_m=0.04, triangles=20000))
+poses = random_poses(500, 0.05, seed=1)
+poses[:, :3, :3] = np.eye(3)
+def work():
+    while True:
+        {call}
+threading.Thread(target=work, daemon=True).start()
+time.sleep(0.3)
+"""
+    for _ in range(3):
+        ended = subprocess.run([sys.executable, "-c", program], cwd=pathlib.Path(__file__).parent, capture_output=True)
+        assert ended.returncode == 0, ended.stderr.decode()
+
+
+def test_threads_share_even_a_few_long_queries(torus, ball):
+    poses = random_poses(4, 0.03, seed=8)
+    assert (glissade.way_out(torus, ball, poses) == glissade.way_out(torus, ball, poses, threads=4)).all()
