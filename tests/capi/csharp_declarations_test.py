@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks that examples/csharp/Glissade.cs declares the functions of capi/glissade.h with as many arguments, and the members
-of its structs in the same order."""
+of its structs in the same order, with the same types and lengths."""
 
 import pathlib
 import re
@@ -18,10 +18,27 @@ def functions_of(text, marker):
     return {name: 0 if arguments.strip() in ("", "void") else arguments.count(",") + 1 for name, arguments in found}
 
 
-def members_of(body):
-    body = re.sub(r"\[[^\]]*\]", "", body)
-    statements = (statement for statement in body.split(";") if statement.strip())
-    return [re.findall(r"\w+", variable)[-1] for statement in statements for variable in statement.split(",")]
+CSHARP_TYPES = {"double": "double", "int32_t": "int", "int64_t": "long", "uint64_t": "ulong", "size_t": "ulong"}
+LENGTHS = {"GLISSADE_JOINTS": "Glissade.Joints", "GLISSADE_MAX_PARTS": "4", "GLISSADE_MAX_HANDS": "4",
+           "GLISSADE_MAX_CONTACTS": "24"}
+
+
+def members_in_c(body):
+    """(C# type, name, length of the array or None) of each member."""
+    for statement in filter(str.strip, body.split(";")):
+        kind, variables = re.fullmatch(r"\s*((?:const )?\w+\s*\*?)(.*)", statement, re.DOTALL).groups()
+        for variable in variables.split(","):
+            name, length = re.fullmatch(r"\s*(\w+)(?:\[(\w+)\])?\s*", variable).groups()
+            kind_in_csharp = "IntPtr" if "*" in kind else CSHARP_TYPES.get(kind.strip(), kind.strip())
+            yield kind_in_csharp, name, LENGTHS.get(length, length)
+
+
+def members_in_csharp(body):
+    for statement in filter(str.strip, body.split(";")):
+        length = re.search(r"SizeConst = ([\w.]+)", statement)
+        kind, variables = re.fullmatch(r"(?:\s*\[[^\]]*\])?\s*public (\w+)(?:\[\])?\s(.*)", statement, re.DOTALL).groups()
+        for name in variables.split(","):
+            yield kind, name.strip(), length and length[1]
 
 
 class Declarations(unittest.TestCase):
@@ -38,7 +55,7 @@ class Declarations(unittest.TestCase):
         of_csharp = dict(re.findall(r"public struct (\w+) \{([^}]*)\}", self.csharp, re.DOTALL))
         self.assertEqual(set(of_header), set(of_csharp))
         for name, body in of_header.items():
-            self.assertEqual(members_of(of_csharp[name]), members_of(body), name)
+            self.assertEqual(list(members_in_csharp(of_csharp[name])), list(members_in_c(body)), name)
 
 
 if __name__ == "__main__":
