@@ -83,10 +83,17 @@ class SharedWork {
 
 }  // namespace
 
-void SignalCheck::operator()() {
-  if (gettid() != getpid()) return;  // only the main thread handles signals
+SignalCheck::SignalCheck()
+    : is_main_thread_(gettid() == getpid()),
+      looked_(std::chrono::steady_clock::now()),
+      next_(looked_ + kSignalPeriod) {}
+
+void SignalCheck::look() {
   const auto now = std::chrono::steady_clock::now();
-  if (now < next_) return;
+  calls_ = now - looked_ < kSignalPeriod / 50 ? 2 * calls_ : std::max<std::int64_t>(1, calls_ / 2);
+  calls_left_ = calls_;
+  looked_ = now;
+  if (!is_main_thread_ || now < next_) return;
   next_ = now + kSignalPeriod;
   const py::gil_scoped_acquire locked;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();

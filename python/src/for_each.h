@@ -14,14 +14,25 @@ namespace glissade::python {
 /// as Ctrl-C.
 void for_each(std::int64_t count, int threads, const std::function<std::function<void(std::int64_t)>()>& make_worker);
 
-/// Looks for signals, such as Ctrl-C, some times a second.
+/// Looks for signals, such as Ctrl-C, some times a second, however often it is called. Does nothing in threads other
+/// than the main thread, which alone handles signals.
 class SignalCheck {
  public:
+  SignalCheck();
+
   /// Called without the interpreter lock. Throws pybind11::error_already_set after a signal.
-  void operator()();
+  void operator()() {
+    if (--calls_left_ == 0) look();
+  }
 
  private:
-  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+  void look();
+
+  bool is_main_thread_;
+  std::int64_t calls_ = 1;  // between two looks at the clock: reading it takes as long as a short query
+  std::int64_t calls_left_ = 1;
+  std::chrono::steady_clock::time_point looked_;
+  std::chrono::steady_clock::time_point next_;
 };
 
 }  // namespace glissade::python
