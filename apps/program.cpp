@@ -35,31 +35,9 @@ int fail(int exit_code, const std::string& message) {
 }
 
 int parse_and_run(int argc, char** argv) {
-  CLI::App app{kDescription, "glissade"};
-  app.footer(kFooter);
-  app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
-  app.set_help_flag("-h,--help", "Print this help and exit");
-  app.formatter(help_formatter());
-  app.require_subcommand(0, 1);  // a missing command gets a message of our own below
+  CLI::App app;
   Command chosen;
-  add_demo_command(app, chosen);
-  add_example_command(app, chosen);
-  add_info_command(app, chosen);
-  add_collide_command(app, chosen);
-  add_slide_command(app, chosen);
-  add_grasp_command(app, chosen);
-  add_run_command(app, chosen);
-  add_record_command(app, chosen);
-  add_replay_command(app, chosen);
-  add_log_command(app, chosen);
-  add_export_command(app, chosen);
-  add_glove_command(app, chosen);
-  add_bridge_command(app, chosen);
-  add_calibrate_command(app, chosen);
-  add_emulate_command(app, chosen);
-  add_view_command(app, chosen);
-  add_doctor_command(app, chosen);
-  add_latency_command(app, chosen);
+  declare_program(app, chosen);
   std::vector<std::string> arguments = with_help_as_option(app, {argv + 1, argv + argc});
   std::reverse(arguments.begin(), arguments.end());  // as the parser takes them
   try {
@@ -85,6 +63,34 @@ int flush_output(int exit_code) {
 }
 
 }  // namespace
+
+void declare_program(CLI::App& app, Command& chosen) {
+  app.description(kDescription);
+  app.name("glissade");
+  app.footer(kFooter);
+  app.set_version_flag("--version", "glissade " GLISSADE_VERSION, "Print the version and exit");
+  app.set_help_flag("-h,--help", "Print this help and exit");
+  app.formatter(help_formatter());
+  app.require_subcommand(0, 1);  // a missing command gets a message of our own below
+  add_demo_command(app, chosen);
+  add_example_command(app, chosen);
+  add_info_command(app, chosen);
+  add_collide_command(app, chosen);
+  add_slide_command(app, chosen);
+  add_grasp_command(app, chosen);
+  add_run_command(app, chosen);
+  add_record_command(app, chosen);
+  add_replay_command(app, chosen);
+  add_log_command(app, chosen);
+  add_export_command(app, chosen);
+  add_glove_command(app, chosen);
+  add_bridge_command(app, chosen);
+  add_calibrate_command(app, chosen);
+  add_emulate_command(app, chosen);
+  add_view_command(app, chosen);
+  add_doctor_command(app, chosen);
+  add_latency_command(app, chosen);
+}
 
 int run_program(int argc, char** argv) {
   complete_standard_streams();

@@ -8,14 +8,54 @@ macro(glissade_find_package package)
   set_property(GLOBAL PROPERTY glissade_package_${package} "${ARGV}")
 endmacro()
 
-# glissade_install_component(NAME [arguments of install(TARGETS)...]): installs the target glissade_NAME, with an export
-# set of its own, as a component of find_package(glissade).
-function(glissade_install_component name)
+# With BUILD_SHARED_LIBS, one library of all installed components is installed in place of theirs. Theirs stay static, for
+# the program and the tests, which look into the rooms. The library hides what GLISSADE_EXPORT does not mark.
+if(BUILD_SHARED_LIBS)
+  add_library(glissade_library SHARED)
+  set_target_properties(glissade_library PROPERTIES
+    OUTPUT_NAME glissade
+    EXPORT_NAME library
+    LINKER_LANGUAGE CXX
+    VERSION ${PROJECT_VERSION}
+    SOVERSION ${PROJECT_VERSION_MAJOR})
+  target_link_options(glissade_library PRIVATE LINKER:--no-undefined,--as-needed)
+  install(TARGETS glissade_library EXPORT glissade_library
+    LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)
+  install(EXPORT glissade_library FILE glissade_libraryTargets.cmake NAMESPACE glissade::
+    DESTINATION ${glissade_package_dir} COMPONENT development)
+endif()
+
+# glissade_install_component(NAME TARGET [arguments of install(TARGETS)...]): installs the target, with an export set of
+# its own, as a component of find_package(glissade).
+function(glissade_install_component name target)
   set_property(GLOBAL APPEND PROPERTY glissade_components ${name})
-  set_target_properties(glissade_${name} PROPERTIES EXPORT_NAME ${name})
-  install(TARGETS glissade_${name} EXPORT glissade_${name} ${ARGN})
-  install(EXPORT glissade_${name} FILE glissade_${name}Targets.cmake NAMESPACE glissade::
-    DESTINATION ${glissade_package_dir})
+  set_property(GLOBAL PROPERTY glissade_target_of_${name} ${target})
+  set_target_properties(${target} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS ${target} EXPORT ${target} ${ARGN})
+  install(EXPORT ${target} FILE glissade_${name}Targets.cmake NAMESPACE glissade::
+    DESTINATION ${glissade_package_dir} COMPONENT development)
+endfunction()
+
+# glissade_add_to_library(NAME HEADERS headers... DEPENDS targets... PRIVATE_DEPENDS targets...): adds a component to the
+# one shared library, and installs its headers with a target that links this library.
+function(glissade_add_to_library name)
+  cmake_parse_arguments(ARG "" "" "HEADERS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  set(packages ${ARG_DEPENDS} ${ARG_PRIVATE_DEPENDS})
+  list(FILTER packages EXCLUDE REGEX "^glissade")
+  target_sources(glissade_library PRIVATE $<TARGET_OBJECTS:glissade_${name}>)
+  target_link_libraries(glissade_library PRIVATE ${packages})
+  if(NOT ARG_HEADERS)
+    return()
+  endif()
+  set(target glissade_${name}_shared)
+  list(TRANSFORM ARG_DEPENDS REPLACE "^glissade::(.+)$" "glissade_\\1_shared")
+  add_library(${target} INTERFACE)
+  target_sources(${target} INTERFACE FILE_SET HEADERS BASE_DIRS ${PROJECT_BINARY_DIR}/include/${name}
+    FILES ${ARG_HEADERS})
+  target_link_libraries(${target} INTERFACE glissade_library ${ARG_DEPENDS})
+  target_compile_features(${target} INTERFACE cxx_std_20)
+  glissade_install_component(${name} ${target}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
 endfunction()
 
 # glissade_add_component(NAME
@@ -37,7 +77,7 @@ function(glissade_add_component name)
   file(MAKE_DIRECTORY ${include_root}/glissade)
   file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR} ${include_root}/glissade/${name} SYMBOLIC)
 
-  add_library(${target} ${ARG_SOURCES})
+  add_library(${target} STATIC ${ARG_SOURCES})
   add_library(glissade::${name} ALIAS ${target})
   list(TRANSFORM ARG_HEADERS PREPEND ${include_root}/glissade/${name}/)
   if(ARG_WITHOUT_HEADERS)
@@ -50,8 +90,9 @@ function(glissade_add_component name)
     set_target_properties(${target}_headers PROPERTIES VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
   else()
     target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${include_root} FILES ${ARG_HEADERS})
-    set(header_set FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+    set(header_set FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT development)
   endif()
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include/export>)
   # Headers of rooms are included with quotes, by their path in the component: "ROOM/header.h".
   target_include_directories(${target} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})
   list(TRANSFORM ARG_PRIVATE_DEPENDS REPLACE "^glissade_base$" "$<BUILD_INTERFACE:glissade_base>")
@@ -61,6 +102,8 @@ function(glissade_add_component name)
   target_compile_options(${target} PRIVATE -ffp-contract=off)
   set_target_properties(${target} PROPERTIES
     POSITION_INDEPENDENT_CODE ON
+    CXX_VISIBILITY_PRESET hidden
+    VISIBILITY_INLINES_HIDDEN ON
     VERIFY_INTERFACE_HEADER_SETS ${PROJECT_IS_TOP_LEVEL})
   # Kernels, the sources that Highway compiles once for each instruction set, are compiled alone.
   set(kernels ${ARG_SOURCES})
@@ -78,10 +121,18 @@ function(glissade_add_component name)
     glissade_compile_in_bulk(${target} EXCEPT ${kernels})
   endif()
 
-  if(NOT ARG_NOT_INSTALLED)
-    glissade_install_component(${name}
-      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
-      LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
+  if(ARG_NOT_INSTALLED)
+    return()
+  endif()
+  if(BUILD_SHARED_LIBS)
+    if(ARG_WITHOUT_HEADERS)
+      set(ARG_HEADERS)
+    endif()
+    glissade_add_to_library(${name}
+      HEADERS ${ARG_HEADERS} DEPENDS ${ARG_DEPENDS} PRIVATE_DEPENDS ${ARG_PRIVATE_DEPENDS})
+  else()
+    glissade_install_component(${name} ${target}
+      ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT development
       ${header_set})
   endif()
 endfunction()

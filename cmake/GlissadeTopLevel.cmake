@@ -58,7 +58,10 @@ add_library(glissade_precompiled OBJECT ${CMAKE_CURRENT_LIST_DIR}/precompiled.cp
 target_link_libraries(glissade_precompiled PRIVATE Eigen3::Eigen)
 target_compile_features(glissade_precompiled PRIVATE cxx_std_20)
 target_compile_options(glissade_precompiled PRIVATE -ffp-contract=off)
-set_target_properties(glissade_precompiled PROPERTIES POSITION_INDEPENDENT_CODE ON)
+set_target_properties(glissade_precompiled PROPERTIES
+  POSITION_INDEPENDENT_CODE ON
+  CXX_VISIBILITY_PRESET hidden
+  VISIBILITY_INLINES_HIDDEN ON)
 glissade_set_warnings(glissade_precompiled)
 glissade_precompile(glissade_precompiled PRIVATE
   <algorithm> <array> <chrono> <cmath> <cstdint> <functional> <memory> <optional> <span> <stdexcept> <string> <utility>

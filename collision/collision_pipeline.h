@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/collision/frame_result.h>
 #include <glissade/collision/world.h>
 #include <glissade/realtime/clock.h>
@@ -25,7 +26,7 @@ namespace glissade::collision {
 /// distance of the frame, not on the number of threads or on earlier frames. Not thread-safe, but other threads may
 /// edit the world and move its objects at any time. If memory runs out in a frame that several threads share, the
 /// program ends.
-class CollisionPipeline {
+class GLISSADE_EXPORT CollisionPipeline {
  public:
   /// The pipeline becomes the only consumer of `world`: only the pipeline may call `World::take_changes`. World and
   /// clock must outlive the pipeline. The clock is used for measurements only. Throws std::invalid_argument if the
@@ -82,7 +83,7 @@ class FrameReader {
 
 /// Computes frames from construction to `stop` or destruction. Thread-safety: one thread owns the object, only one
 /// thread may use each reader, and any thread may use the world.
-class CollisionThread {
+class GLISSADE_EXPORT CollisionThread {
  public:
   /// World and clock must outlive the thread. No other pipeline may use this world. Throws std::invalid_argument for
   /// options out of range. Throws std::system_error if no thread can be started.

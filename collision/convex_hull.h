@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::collision {
@@ -20,7 +21,7 @@ struct HullFacets;
 
 /// A convex hull. The input points may be coplanar, collinear or coincident. Immutable after construction, so objects
 /// and threads may share it.
-class ConvexHull {
+class GLISSADE_EXPORT ConvexHull {
  public:
   /// The hull of points in the frame of the object (metres). Throws std::invalid_argument if there is no point or if a
   /// coordinate is not finite. Cost O(n log n).
@@ -171,7 +172,7 @@ struct HullMemory {
 /// Allocates nothing. The cost is about 20 ns if the plane or simplex in the `HullMemory` still gives the answer.
 /// Otherwise the cost is less than a microsecond after a small movement, and some microseconds after a large movement.
 /// The cost is always bounded. Different threads may query the same hulls, each with its own `HullMemory`.
-bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB, HullMemory& memory,
-                 HullTest test = HullTest::kExact) noexcept;
+GLISSADE_EXPORT bool hulls_apart(const ConvexHull& hull_A, const ConvexHull& hull_B, const Eigen::Isometry3d& X_AB,
+                                 HullMemory& memory, HullTest test = HullTest::kExact) noexcept;
 
 }  // namespace glissade::collision

@@ -22,6 +22,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/query_types.h>
 
@@ -29,33 +30,39 @@ namespace glissade::collision {
 
 /// Whether two meshes are at most `tolerance` (metres, ≥ 0) apart (paper §2.1). With tolerance 0, the query tests
 /// whether the meshes intersect.
-bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, QueryWorkspace& workspace,
-                double tolerance = 0.0);
-bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                CoherentWorkspace& workspace, double tolerance = 0.0);
+GLISSADE_EXPORT bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                QueryWorkspace& workspace, double tolerance = 0.0);
+GLISSADE_EXPORT bool intersects(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                CoherentWorkspace& workspace, double tolerance = 0.0);
 
 /// Replaces `pairs` by all triangle pairs at most `tolerance` (metres, ≥ 0) apart, in ascending order. With tolerance
 /// 0, these are the intersecting pairs.
-void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                        QueryWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
-void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                        CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs, double tolerance = 0.0);
+GLISSADE_EXPORT void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                        QueryWorkspace& workspace, std::vector<TrianglePair>& pairs,
+                                        double tolerance = 0.0);
+GLISSADE_EXPORT void intersecting_pairs(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                        CoherentWorkspace& workspace, std::vector<TrianglePair>& pairs,
+                                        double tolerance = 0.0);
 
 /// Replaces `pairs` by all triangle pairs at most `distance` (metres, ≥ 0) apart, with their closest points, in
 /// ascending order of the triangle indices. If `selection` has an entry for each tree, the answer contains only
 /// selected pairs, and the cost grows with the number of selected pairs. A missing entry selects all triangles of its
 /// tree, and therefore all pairs. Throws std::invalid_argument for a selection that was made for another tree.
-void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  QueryWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
-void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB, double distance,
-                  CoherentWorkspace& workspace, std::vector<ClosePair>& pairs, const PairSelection& selection = {});
+GLISSADE_EXPORT void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                  double distance, QueryWorkspace& workspace, std::vector<ClosePair>& pairs,
+                                  const PairSelection& selection = {});
+GLISSADE_EXPORT void pairs_within(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                  double distance, CoherentWorkspace& workspace, std::vector<ClosePair>& pairs,
+                                  const PairSelection& selection = {});
 
 /// The least distance between a triangle of A and a triangle of B, if this distance is less than `limit` (metres). The
 /// cost hardly depends on the distance. A smaller `limit` reduces the cost.
-MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                      QueryWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
-MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                      CoherentWorkspace& workspace, double limit = std::numeric_limits<double>::infinity());
+GLISSADE_EXPORT MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                      QueryWorkspace& workspace,
+                                      double limit = std::numeric_limits<double>::infinity());
+GLISSADE_EXPORT MeshDistance distance(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                      CoherentWorkspace& workspace,
+                                      double limit = std::numeric_limits<double>::infinity());
 
 /// A translation that separates two meshes.
 struct Penetration {
@@ -80,8 +87,8 @@ struct Penetration {
 ///
 /// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws in the same cases as the other
 /// queries.
-Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                         QueryWorkspace& workspace, double clearance = 0.0);
+GLISSADE_EXPORT Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                         QueryWorkspace& workspace, double clearance = 0.0);
 
 // Traversal of two trees with a user-defined cut-off. It visits pairs of children, i.e. a child of a node of tree A and
 // a child of a node of tree B. A visitor can accept such a pair as a whole, for example two flush plane patches. The
@@ -107,7 +114,7 @@ struct NearTriangles {
 };
 
 /// Receives the pairs of children and the pairs of triangles.
-class DualTreeVisitor {
+class GLISSADE_EXPORT DualTreeVisitor {
  public:
   /// Returns whether the visitor accepts two children. Called only for children that are not proven to be farther apart
   /// than `NearDistances::within`. The traversal skips all pairs below two accepted children.
@@ -137,8 +144,8 @@ struct NearDistances {
 /// including the order. Allocates nothing once the workspace is large enough. The visitor must not use the workspace
 /// for queries. Throws std::invalid_argument for distances that are negative or not numbers, and in the same cases as
 /// the other queries.
-void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
-                   const NearDistances& distances, QueryWorkspace& workspace, DualTreeVisitor& visitor,
-                   const PairSelection* below_accepted = nullptr);
+GLISSADE_EXPORT void traverse_near(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
+                                   const NearDistances& distances, QueryWorkspace& workspace, DualTreeVisitor& visitor,
+                                   const PairSelection* below_accepted = nullptr);
 
 }  // namespace glissade::collision

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/base/export.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::collision {
@@ -65,7 +66,7 @@ struct TreeNode {
 /// triangles.
 ///
 /// Thread-safety: any number of threads may query a tree at once. During `refit`, no other thread may use the tree.
-class DopTree {
+class GLISSADE_EXPORT DopTree {
  public:
   /// Maximum number of children of a node, and of triangles of a leaf.
   static constexpr int kWidth = 4;
@@ -178,21 +179,23 @@ struct CachedTree {
 };
 
 /// The cache file of a mesh file: the name of the mesh file followed by ".dop-tree".
-std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
+GLISSADE_EXPORT std::filesystem::path tree_cache_path(const std::filesystem::path& mesh_path);
 
 /// Writes or replaces the file. The file has another name until it is complete. A file that cannot be completed is
 /// deleted. So `path` never names an incomplete file. Replaces regular files only, and not, for example, symbolic
 /// links. Throws std::runtime_error with one line that names the file and the reason. May block on the disk.
-void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
+GLISSADE_EXPORT void write_tree_cache(const std::filesystem::path& path, const DopTree& tree);
 
 /// Reads the tree that DopTree(mesh, options) would build. An unusable file is not an error, see `CachedTree::state`.
 /// Throws for the same meshes and options as the constructor of DopTree. Cost O(n log n). May block on the disk.
-CachedTree read_tree_cache(const std::filesystem::path& path, std::shared_ptr<const geometry::TriangleMesh> mesh,
-                           const DopTreeOptions& options = {});
+GLISSADE_EXPORT CachedTree read_tree_cache(const std::filesystem::path& path,
+                                           std::shared_ptr<const geometry::TriangleMesh> mesh,
+                                           const DopTreeOptions& options = {});
 
 /// Like `read_tree_cache`, but takes the bytes of a file instead of its path.
-CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes, std::shared_ptr<const geometry::TriangleMesh> mesh,
-                                 const DopTreeOptions& options = {});
+GLISSADE_EXPORT CachedTree read_tree_cache_bytes(std::span<const std::byte> bytes,
+                                                 std::shared_ptr<const geometry::TriangleMesh> mesh,
+                                                 const DopTreeOptions& options = {});
 
 /// A tree, and a note about its cache file.
 struct LoadedTree {
@@ -203,8 +206,8 @@ struct LoadedTree {
 /// Reads the tree from the cache file of `mesh_path`. If that file is missing or unusable, builds the tree and writes
 /// the file. The note reports a file that is unusable or cannot be written. Throws what the constructor of DopTree
 /// throws.
-LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
-                              const std::shared_ptr<const geometry::TriangleMesh>& mesh,
-                              const DopTreeOptions& options = {});
+GLISSADE_EXPORT LoadedTree load_or_build_tree(const std::filesystem::path& mesh_path,
+                                              const std::shared_ptr<const geometry::TriangleMesh>& mesh,
+                                              const DopTreeOptions& options = {});
 
 }  // namespace glissade::collision

@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/collision/convex_hull.h>
 #include <glissade/collision/query_types.h>
 #include <glissade/collision/world.h>
@@ -128,6 +129,6 @@ struct FrameResult {
 
 /// The pose X_AB of object B in the frame of object A. The pipeline calls this function too, so results can be compared
 /// bit for bit.
-Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
+GLISSADE_EXPORT Eigen::Isometry3d relative_pose(const WorldObject& object_A, const WorldObject& object_B);
 
 }  // namespace glissade::collision

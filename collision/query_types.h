@@ -11,6 +11,8 @@
 
 #include <Eigen/Core>
 
+#include <glissade/base/export.h>
+
 namespace glissade::collision {
 
 class CoherentFront;
@@ -55,7 +57,7 @@ struct QueryCounters {
 /// depends on the trees, on their poses and on what a coherent workspace remembers, but not on the speed of the
 /// machine. The work may differ a little between instruction sets, because conservative tests in single precision may
 /// keep different pairs.
-class WorkMeter {
+class GLISSADE_EXPORT WorkMeter {
  public:
   /// Adds the `work` on a pair of nodes, on a pair of leaves, or on the exact tests of up to 16 triangle pairs of two
   /// leaves. Called just before or just after this work. May throw an exception to end the query. After such an
@@ -68,7 +70,7 @@ class WorkMeter {
 
 /// Scratch memory and counters of queries. Keep one workspace per thread and reuse it. After the first few queries,
 /// queries allocate nothing. Not thread-safe.
-class QueryWorkspace {
+class GLISSADE_EXPORT QueryWorkspace {
  public:
   QueryWorkspace();
   ~QueryWorkspace();
@@ -91,7 +93,7 @@ class QueryWorkspace {
 /// trees have moved little, the next query is much cheaper. The answers are bit-identical to those with a
 /// `QueryWorkspace`. Use one workspace for each pair of trees. A workspace forgets the last query if the next query has
 /// other trees, or a tree that was refitted. Not thread-safe.
-class CoherentWorkspace {
+class GLISSADE_EXPORT CoherentWorkspace {
  public:
   CoherentWorkspace();
   ~CoherentWorkspace();
@@ -113,7 +115,7 @@ class CoherentWorkspace {
 /// A set of selected triangles of one tree. Other triangles may be half selected. A triangle pair of two trees is a
 /// selected pair if at least one of its triangles is selected, or if both are half selected. Immutable after
 /// construction, so threads may share it.
-class TriangleSelection {
+class GLISSADE_EXPORT TriangleSelection {
  public:
   /// Calls both functions once for each triangle, with the index of the triangle in the mesh. Without
   /// `is_half_selected`, no triangle is half selected. The selection is valid for `tree` and for copies of `tree`, also

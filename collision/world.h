@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/collision/dop_tree.h>
 
 namespace glissade::collision {
@@ -62,7 +63,7 @@ struct WorldChanges {
 /// Thread-safety: any thread may edit the world or move objects at any time. One thread is the consumer. A "take" is a
 /// call of `take_changes`. An id is stale if it is default-constructed or if its object was removed. Use an id only in
 /// the world that returned it.
-class World {
+class GLISSADE_EXPORT World {
  public:
   /// A world for at most `capacity` objects. The memory of the world is about 0.9 kB times `capacity`. Throws
   /// std::invalid_argument unless `capacity` is 1 to 1,000,000.

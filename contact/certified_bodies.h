@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/sliding_result.h>
 
@@ -19,7 +20,7 @@ namespace glissade::contact {
 /// move. Between two motions, the caller may move objects to other places. Only pairs of a mover and a fixed body, and
 /// of a mover and an object, are considered. Not thread-safe. After the first few calls with the same bodies, memory is
 /// allocated only for new contacts.
-class CertifiedBodies {
+class GLISSADE_EXPORT CertifiedBodies {
  public:
   /// `margin` (metres) is the gap to all other bodies at which the caller should stop the movers. A certified motion
   /// keeps a gap of at least kMinClearanceOfMargin × `margin`. Throws std::invalid_argument if there is no mover. Also

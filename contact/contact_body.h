@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/collision/convex_hull.h>
 #include <glissade/collision/dop_tree.h>
 #include <glissade/collision/query_types.h>
@@ -23,7 +24,7 @@ class ObbTree;
 
 /// A mesh with its DOP-tree (a bounding-volume hierarchy), convex hull and topology. Immutable after construction, so
 /// threads may share it.
-struct ContactBody {
+struct GLISSADE_EXPORT ContactBody {
   /// Throws std::invalid_argument for a null mesh. Also throws what the constructor of `DopTree` throws. Cost O(n log
   /// n) for n triangles.
   explicit ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& mesh);
@@ -54,7 +55,7 @@ inline constexpr double kFarthestPoint = 10.0;
 /// point hardly turns the part. So a peg coupled at its tip finds its hole, whereas a peg coupled at its middle tilts
 /// and jams. The coupling of a hand with fingers acts where the fingers grip the part (see `MultiPartSliding::grasp`),
 /// unless the constructor was given a compliance point.
-class SlidingPart : public ContactBody {
+class GLISSADE_EXPORT SlidingPart : public ContactBody {
  public:
   /// The compliance point is the centre of the bounding box, so the points of the part move little in a rotation.
   /// Throws what the constructor of `ContactBody` throws.
@@ -78,9 +79,9 @@ class SlidingPart : public ContactBody {
 /// Loads a body from a mesh file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, e.g. 1e-3 for millimetres. The
 /// warnings and counts of `geometry::import_mesh` are lost. Call `geometry::import_mesh` to get them. Throws
 /// std::invalid_argument, naming the file, as `geometry::import_mesh` does.
-std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale = 1.0);
+GLISSADE_EXPORT std::shared_ptr<const ContactBody> load_body(const std::filesystem::path& file, double scale = 1.0);
 /// Like `load_body`, for a part. The compliance point is the centre of the bounding box.
-std::shared_ptr<const SlidingPart> load_part(const std::filesystem::path& file, double scale = 1.0);
+GLISSADE_EXPORT std::shared_ptr<const SlidingPart> load_part(const std::filesystem::path& file, double scale = 1.0);
 
 /// A body that stands still. Several obstacles may share one `ContactBody`.
 struct Obstacle {
@@ -94,7 +95,7 @@ struct Obstacle {
 };
 
 /// A motion of several bodies together, the movers of `CertifiedBodies`. The parameter t runs from 0 to 1.
-class BodiesMotion {
+class GLISSADE_EXPORT BodiesMotion {
  public:
   virtual ~BodiesMotion() = default;
 

@@ -24,6 +24,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/sliding_result.h>
 #include <glissade/contact/sliding_rules.h>
@@ -39,19 +40,19 @@ class ContactScene;
 /// of the part must move inwards until the part is free. The depth is 0 if part and body are apart or only touch. If no
 /// distance frees the part, or if the part is an open surface, the result is the length of a translation that separates
 /// part and body. Cost: some hundred collision queries.
-double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
+GLISSADE_EXPORT double overlap_depth(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
 
 /// The mesh of a part with all faces moved inwards by `depth` (metres); std::nullopt for an open surface. Triangles
 /// keep their numbers.
-std::optional<geometry::TriangleMesh> inset_mesh(const SlidingPart& part_V, double depth);
+GLISSADE_EXPORT std::optional<geometry::TriangleMesh> inset_mesh(const SlidingPart& part_V, double depth);
 
 /// Whether a part at X_BV is wholly inside the closed surface of a body, without touching the surface.
-bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
+GLISSADE_EXPORT bool is_enclosed(const ContactBody& body, const SlidingPart& part_V, const Eigen::Isometry3d& X_BV);
 
 /// The simulation of up to kMaxParts parts among fixed obstacles and riders. Riders are bodies that obstruct parts or
 /// move with a part, for example the segments of a hand. Deterministic: the same calls give bit-identical results. Not
 /// thread-safe. However, several simulations may share bodies.
-class MultiPartSliding {
+class GLISSADE_EXPORT MultiPartSliding {
  public:
   /// The riders of `chains` are absent until `place_riders`. Bodies whose distance is below the rounding error of their
   /// coordinates count as touching. Throws std::invalid_argument for:

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/sliding_rules.h>
 #include <glissade/contact/spring.h>
 #include <glissade/geometry/displacement.h>
@@ -69,7 +70,7 @@ using CoupledProjection = Projection<kMaxParts>;
 ///
 /// The work is bounded: the active set changes at most 32 + 4 · rows times, and each change costs O(rows).
 /// Deterministic. Not thread-safe.
-class ProjectionSolver {
+class GLISSADE_EXPORT ProjectionSolver {
  public:
   /// Allocates memory for `rows` rows of one part. A call allocates only if it has more rows than any earlier call.
   explicit ProjectionSolver(std::size_t rows = 0);

@@ -13,6 +13,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/multi_part_sliding.h>
 #include <glissade/geometry/pose_trajectory.h>
 
@@ -38,12 +39,12 @@ struct ScriptedPart {
 };
 
 /// Converts a scripted part for `MultiPartSliding`. Throws std::invalid_argument, naming the part, for a null pointer.
-HeldPart held_by_script(const ScriptedPart& part);
+GLISSADE_EXPORT HeldPart held_by_script(const ScriptedPart& part);
 
 /// The simulation of one part among fixed obstacles and scripted parts. In the underlying `MultiPartSliding`, the part
 /// has number 0, and the scripted parts follow. Deterministic: the same calls give bit-identical results. Not
 /// thread-safe. However, several simulations may share bodies.
-class Sliding {
+class GLISSADE_EXPORT Sliding {
  public:
   /// Throws what the constructor of `MultiPartSliding` throws.
   Sliding(std::vector<Obstacle> obstacles, std::shared_ptr<const SlidingPart> part_V,

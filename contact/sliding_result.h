@@ -14,6 +14,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/spring.h>
 
 namespace glissade::contact {
@@ -29,7 +30,7 @@ enum class ContactKind : std::uint8_t {
   kOverlap,  ///< the part overlapped the obstacle at the start and is leaving it
 };
 
-std::string_view name_of(ContactKind kind);
+GLISSADE_EXPORT std::string_view name_of(ContactKind kind);
 
 /// A place where a part and an obstacle are close.
 ///
@@ -81,7 +82,7 @@ enum class SlidingState : std::uint8_t {
   kCatchingUp,  ///< no contact pushes, but the part is not at its target yet
 };
 
-std::string_view name_of(SlidingState state);
+GLISSADE_EXPORT std::string_view name_of(SlidingState state);
 /// The outcome of one call of `advance` for one part.
 struct SlidingResult {
   Eigen::Isometry3d X_WG = Eigen::Isometry3d::Identity();  ///< the ghost
@@ -112,6 +113,6 @@ struct SlidingResult {
 
 /// The wrench of a part's contacts on the hands that hold the part, about the reference point p_Vref, in world axes. At
 /// rest, this wrench balances the coupling spring. The wrench is zero while the part only catches up.
-Wrench contact_wrench(const SlidingResult& result, const Eigen::Vector3d& p_Vref);
+GLISSADE_EXPORT Wrench contact_wrench(const SlidingResult& result, const Eigen::Vector3d& p_Vref);
 
 }  // namespace glissade::contact

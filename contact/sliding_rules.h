@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/spring.h>
 #include <glissade/geometry/pose_trajectory.h>
 
@@ -61,7 +62,7 @@ inline std::string_view name_of(Metaphor metaphor) {
 }
 
 /// The metaphor with this name; std::nullopt for an unknown name.
-std::optional<Metaphor> metaphor_from_name(std::string_view name);
+GLISSADE_EXPORT std::optional<Metaphor> metaphor_from_name(std::string_view name);
 
 /// The target X_WT of a part at X_WV, after the ghost has moved from X_WG_previous to X_WG. `p_Vref` is the reference
 /// point in the part's frame. The target depends on the `MetaphorTraits`:
@@ -69,8 +70,9 @@ std::optional<Metaphor> metaphor_from_name(std::string_view name);
 ///   ghost's rotation.
 /// - Without `turns_part`, the target has the ghost's reference point and the rotation of X_WV.
 /// - Otherwise the target is equal to X_WG, bit for bit.
-Eigen::Isometry3d wanted_pose(Metaphor metaphor, const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG_previous,
-                              const Eigen::Isometry3d& X_WG, const Eigen::Vector3d& p_Vref);
+GLISSADE_EXPORT Eigen::Isometry3d wanted_pose(Metaphor metaphor, const Eigen::Isometry3d& X_WV,
+                                              const Eigen::Isometry3d& X_WG_previous, const Eigen::Isometry3d& X_WG,
+                                              const Eigen::Vector3d& p_Vref);
 
 /// Coefficients of Coulomb friction. If both coefficients are 0, contacts push along their normals only.
 struct Friction {

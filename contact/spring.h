@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/base/export.h>
 #include <glissade/geometry/displacement.h>
 
 namespace glissade::contact {
@@ -24,13 +25,13 @@ struct CouplingStiffness {
 };
 
 /// Throws std::invalid_argument, naming the part by `part_name`, unless both numbers are positive and finite.
-void validate(const CouplingStiffness& stiffness, const std::string& part_name);
+GLISSADE_EXPORT void validate(const CouplingStiffness& stiffness, const std::string& part_name);
 
 /// The default stiffness of the coupling against translation.
 inline constexpr double kUsualStiffness_N_per_m = 1000.0;
 
 /// The stiffness for a part of radius ρ (metres). The stiffness against rotation is ρ² times `translational`.
-CouplingStiffness stiffness_of_part(double radius, double translational = kUsualStiffness_N_per_m);
+GLISSADE_EXPORT CouplingStiffness stiffness_of_part(double radius, double translational = kUsualStiffness_N_per_m);
 
 /// Force `f` (N) on a body, and torque `t` (Nm) about some point, in world axes.
 struct Wrench {
@@ -44,12 +45,12 @@ inline Wrench scaled(const Wrench& wrench, double factor) {
 }
 
 /// Converts a wrench about the point `from` to the point `to`. Both points are in world coordinates (metres).
-Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
+GLISSADE_EXPORT Wrench about_point(const Wrench& wrench, const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 /// The spring's wrench −K ξ* on the hand about the ghost's reference point. K is `stiffness`. ξ* is `error`, the
 /// displacement from the visible part to its target. The wrench is exactly zero if `error` is zero. Because K is the
 /// metric of the projection, the wrench on a part at rest is a sum of forces along contact normals. So the hand feels
 /// no friction, unless `SlidingRules::friction` is set.
-Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
+GLISSADE_EXPORT Wrench spring_wrench(const CouplingStiffness& stiffness, const geometry::Displacement& error);
 
 }  // namespace glissade::contact

@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/sliding_result.h>
 
 namespace glissade::contact {
@@ -49,7 +50,7 @@ struct TrackedContact {
 /// When the point goes round a corner, a contact with a new number begins. If a new contact could continue several old
 /// contacts, three criteria select the old contact, in this order: it shares a feature with the new contact; it is the
 /// nearest; it is the oldest.
-class ContactTracker {
+class GLISSADE_EXPORT ContactTracker {
  public:
   /// `margin` (metres) is the margin of the simulation (see `Sliding::margin`). If obstacles have margins of their own,
   /// `margin` is the largest of all margins.
@@ -119,7 +120,7 @@ struct ContactPatch {
 /// of the part. Distance within the plane does not matter. For example, the contacts at the four corners of a box that
 /// lies flat are one patch. A patch has the id of its founder. The patch keeps this id while the founder touches and no
 /// older contact joins.
-class ContactPatches {
+class GLISSADE_EXPORT ContactPatches {
  public:
   /// `radius` (metres) is ρ, the radius of the part (`SlidingPart::radius`).
   explicit ContactPatches(double radius) : plane_tolerance_(0.01 * radius) {}

@@ -10,6 +10,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/hands/hand.h>
 
@@ -33,7 +34,7 @@ struct JointCalibration {
   double reported(double angle) const noexcept { return (angle - offset) / gain; }
 };
 
-struct Calibration {
+struct GLISSADE_EXPORT Calibration {
   std::string user;
   std::string device;  ///< `DeviceDescriptor::name`
   hands::HandSide side = hands::HandSide::kUnknown;
@@ -55,14 +56,15 @@ struct Calibration {
 /// Throws std::invalid_argument if the calibration is for another device or side, or has gains out of range or numbers
 /// that are not finite. Also throws for a device that exerts
 /// a force or torque on the hand and has an `X_TH`: such a device must report the place where it exerts them.
-void check_calibration(const Calibration& calibration, const DeviceDescriptor& descriptor, hands::HandSide side);
+GLISSADE_EXPORT void check_calibration(const Calibration& calibration, const DeviceDescriptor& descriptor,
+                                       hands::HandSide side);
 
 /// Reads a calibration (YAML, see docs/devices.md). Throws std::invalid_argument, naming file, line and key.
-Calibration read_calibration(const std::string& path);
+GLISSADE_EXPORT Calibration read_calibration(const std::string& path);
 /// `source` stands for the file's name in messages.
-Calibration parse_calibration(const std::string& text, const std::string& source);
+GLISSADE_EXPORT Calibration parse_calibration(const std::string& text, const std::string& source);
 
 /// The text of a file that reads back as the same calibration.
-std::string text_of(const Calibration& calibration);
+GLISSADE_EXPORT std::string text_of(const Calibration& calibration);
 
 }  // namespace glissade::devices

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 
@@ -24,7 +25,7 @@ struct LogEvent {
 };
 
 /// Writes a log. Not thread-safe; may block.
-class EventLogWriter {
+class GLISSADE_EXPORT EventLogWriter {
  public:
   /// Throws std::invalid_argument, naming the file, when it cannot be created.
   explicit EventLogWriter(const std::string& path);
@@ -44,7 +45,7 @@ class EventLogWriter {
 
 /// Reads a log from the beginning to the end, or up to the first damage. The file may contain arbitrary bytes. Ignores
 /// the numbers of events, so concatenated logs and logs with removed events count as undamaged. Not thread-safe.
-class EventLogReader {
+class GLISSADE_EXPORT EventLogReader {
  public:
   /// Throws std::invalid_argument, naming the file, when it cannot be read or is no event log.
   explicit EventLogReader(const std::string& path);
@@ -80,17 +81,18 @@ struct LoggedState {
 };
 
 /// An event with this message. The event's time is rounded down to microseconds.
-LogEvent to_event(std::chrono::nanoseconds time, std::string channel, std::vector<std::uint8_t> message);
+GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, std::string channel,
+                                  std::vector<std::uint8_t> message);
 
 /// Events with the same channel and message as on the bus.
-LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
-LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state);
-LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);
+GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
+GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state);
+GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);
 
 /// The decoded message of the event. Returns no value if the event is on another channel, or if its message fails the
 /// checks of a receiver.
-std::optional<GloveInfo> glove_info_of(const LogEvent& event);
-std::optional<LoggedState> glove_state_of(const LogEvent& event);
-std::optional<HapticState> haptic_state_of(const LogEvent& event);
+GLISSADE_EXPORT std::optional<GloveInfo> glove_info_of(const LogEvent& event);
+GLISSADE_EXPORT std::optional<LoggedState> glove_state_of(const LogEvent& event);
+GLISSADE_EXPORT std::optional<HapticState> haptic_state_of(const LogEvent& event);
 
 }  // namespace glissade::devices

@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/hands/hand.h>
 
 namespace glissade::devices {
@@ -70,9 +71,9 @@ inline constexpr std::array<NamedReason, 15> kLimitReasons{{{&LimitReasons::is_s
                                                             {&LimitReasons::mean_limited, "mean"},
                                                             {&LimitReasons::energy_limited, "energy"}}};
 
-std::int32_t to_bits(const LimitReasons& reasons) noexcept;
+GLISSADE_EXPORT std::int32_t to_bits(const LimitReasons& reasons) noexcept;
 /// Ignores bits without a meaning.
-LimitReasons limit_reasons_from_bits(std::int32_t bits) noexcept;
+GLISSADE_EXPORT LimitReasons limit_reasons_from_bits(std::int32_t bits) noexcept;
 
 /// Stands for the absence of a limit, rad: beyond every joint's range, and finite for messages.
 inline constexpr double kNoLimit_rad = 6.0;
@@ -92,10 +93,10 @@ struct JointLimit {
 };
 
 /// The torque (Nm, positive toward larger angles) of a limit on a joint with this angle (rad) and rate (rad/s).
-double limit_torque(const JointLimit& limit, double angle, double rate) noexcept;
+GLISSADE_EXPORT double limit_torque(const JointLimit& limit, double angle, double rate) noexcept;
 
 /// The energy (J) that the spring of a limit stores with the joint at this angle (rad).
-double stored_energy(const JointLimit& limit, double angle) noexcept;
+GLISSADE_EXPORT double stored_energy(const JointLimit& limit, double angle) noexcept;
 
 /// One limit per joint, in the order of `hands::kJointNames`.
 struct JointLimits {
@@ -122,7 +123,8 @@ struct JointWay {
 /// limit is where its joint, if it turned alone, would close a contact. Joints that turn together close the contact
 /// earlier: when the shares of their limits that they have used up add to 1. Not positive if one is at its limit or
 /// beyond; infinite without limits.
-double way_left(std::span<const JointWay> joints, const JointLimits& limits, const hands::JointValues& angles) noexcept;
+GLISSADE_EXPORT double way_left(std::span<const JointWay> joints, const JointLimits& limits,
+                                const hands::JointValues& angles) noexcept;
 
 /// Largest number of half-spaces in a command: at most six push at once, and two more may be next.
 inline constexpr std::size_t kMaxHalfSpaces = 8;
@@ -165,12 +167,12 @@ struct HandWrench {
 
 /// The wrench of half-spaces on a hand with this pose, velocity of the origin of H (m/s) and angular velocity (rad/s).
 /// Zero for half-spaces that contradict each other. Cost: about ten microseconds for eight rows. Real-time safe.
-HandWrench half_space_wrench(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH,
-                             const Eigen::Vector3d& v_WH = Eigen::Vector3d::Zero(),
-                             const Eigen::Vector3d& w_WH = Eigen::Vector3d::Zero()) noexcept;
+GLISSADE_EXPORT HandWrench half_space_wrench(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH,
+                                             const Eigen::Vector3d& v_WH = Eigen::Vector3d::Zero(),
+                                             const Eigen::Vector3d& w_WH = Eigen::Vector3d::Zero()) noexcept;
 
 /// The energy (J) that the spring of the half-spaces stores with the hand at this pose.
-double stored_energy(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH) noexcept;
+GLISSADE_EXPORT double stored_energy(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH) noexcept;
 
 /// Measured state of the hand in a glove, in SI units.
 struct GloveState {
@@ -302,33 +304,33 @@ struct DeviceDescriptor {
 /// 1e9; a `max_` limit, `workspace_radius` or a property of the bare device or of its limits is negative; a joint's
 /// lower limit is not below its upper limit, unless both are 0; the update rate is outside 1 to 100,000 Hz; `frozen` is
 /// negative; or `delay`, `limit_delay` or `tool_delay` is outside 0 to 1 s.
-void validate(const DeviceDescriptor& descriptor);
+GLISSADE_EXPORT void validate(const DeviceDescriptor& descriptor);
 
 /// The lag (seconds) of a torque or force over the link behind the motion, for a loop with `period` and a link with
 /// `link_delay`. The lag is half a period, because the force is held for a period, plus the delays of device and link.
 /// Of the periods of loop and device, the longer one counts.
-double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
-              std::chrono::nanoseconds link_delay) noexcept;
+GLISSADE_EXPORT double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
+                              std::chrono::nanoseconds link_delay) noexcept;
 
 /// The same for what the hand root takes: for half-spaces, it is the lag of the device's own loop, whatever the link.
-double tool_lag(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
-                std::chrono::nanoseconds link_delay) noexcept;
+GLISSADE_EXPORT double tool_lag(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
+                                std::chrono::nanoseconds link_delay) noexcept;
 
 /// The largest stiffness that is passive with the reported damping `told` at this lag (seconds), i.e. damping divided
 /// by lag. If `told` is 0, assumes the damping that just makes the device's largest stiffness, `greatest`, passive at
 /// `own_lag`, the lag without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
-double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
+GLISSADE_EXPORT double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
 
 /// The stiffness (Nm/rad) of the limits that the device holds in its own loop, with its joint damping and friction:
 /// passive for a finger up to 0.5 rad/s. A faster finger may get energy in a stroke. 0 for a device that takes torques.
-double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
+GLISSADE_EXPORT double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
 
 /// The damping (Nm s/rad) of the limits of this stiffness that the device holds passively: what the stiffness leaves of
 /// the joint damping. 0 if the joint damping is not known.
-double passive_limit_damping(const DeviceDescriptor& descriptor, double stiffness) noexcept;
+GLISSADE_EXPORT double passive_limit_damping(const DeviceDescriptor& descriptor, double stiffness) noexcept;
 
 /// The largest rate (Nm/s) of change of a joint torque.
-double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;
+GLISSADE_EXPORT double joint_torque_rate(const DeviceDescriptor& descriptor) noexcept;
 
 /// The identity and capabilities of a glove.
 struct GloveInfo {
@@ -344,7 +346,7 @@ class SafeCommand;
 /// The interface of a device driver. Thread-safety: one thread, the haptic thread, calls `read` and `command`. Both
 /// functions are wait-free, allocate nothing and make no system call. A driver that must wait for its device does so in
 /// a separate thread.
-class GloveDevice {
+class GLISSADE_EXPORT GloveDevice {
  public:
   virtual ~GloveDevice() = default;
 

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/hands/hand.h>
 
@@ -139,14 +140,14 @@ struct GloveModel {
 };
 
 /// Throws std::invalid_argument, naming the model and the number by its key in a file, if a number is out of its range.
-void validate(const GloveModel& model);
+GLISSADE_EXPORT void validate(const GloveModel& model);
 
 /// The descriptor that the device announces, with the true numbers of the model. The model must be valid.
-DeviceDescriptor descriptor_of(const GloveModel& model);
+GLISSADE_EXPORT DeviceDescriptor descriptor_of(const GloveModel& model);
 
 /// The fingers of a wearer in the device of a model, without the device's own loop: an emulated firmware drives the
 /// motors or the strings. Integrated at 8 kHz, deterministic. Allocates only at construction.
-class DrivenFingers {
+class GLISSADE_EXPORT DrivenFingers {
  public:
   /// A number for each finger, from the thumb to the little finger.
   using PerFinger = std::array<double, 5>;
@@ -177,16 +178,16 @@ class DrivenFingers {
 };
 
 /// The sum of the flexion angles (rad) of each finger with these joint angles.
-DrivenFingers::PerFinger flexion_sums(const hands::JointValues& angles) noexcept;
+GLISSADE_EXPORT DrivenFingers::PerFinger flexion_sums(const hands::JointValues& angles) noexcept;
 
 /// The names of all presets, in alphabetic order.
-std::vector<std::string_view> glove_presets();
+GLISSADE_EXPORT std::vector<std::string_view> glove_presets();
 
 /// The model of a preset, or else of the file with this path. Throws std::invalid_argument, naming file, line and key,
 /// for a file that is not a valid model. docs/glove_models.md has the keys.
-GloveModel read_glove_model(const std::string& preset_or_path);
+GLISSADE_EXPORT GloveModel read_glove_model(const std::string& preset_or_path);
 
 /// The model in the text of a file. `source` is the file's name, for messages. Throws like `read_glove_model`.
-GloveModel parse_glove_model(const std::string& text, const std::string& source);
+GLISSADE_EXPORT GloveModel parse_glove_model(const std::string& text, const std::string& source);
 
 }  // namespace glissade::devices

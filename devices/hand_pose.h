@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/realtime/clock.h>
@@ -33,7 +34,7 @@ struct TrackedPose {
 };
 
 /// The tracker's end.
-class HandPosePublisher {
+class GLISSADE_EXPORT HandPosePublisher {
  public:
   /// For the glove with the number `device`. Throws std::invalid_argument when the bus is null.
   HandPosePublisher(std::shared_ptr<LcmBus> bus, std::int64_t device);
@@ -56,7 +57,7 @@ struct HandPoseOptions {
 
 /// The glove's end. Finds velocities from two poses if the tracker does not measure them. The clock of the sender may
 /// be that of another machine: as for states, the fastest message so far gives the difference of the clocks.
-class HandPoseSource {
+class GLISSADE_EXPORT HandPoseSource {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, or the rate is outside 1 to 100,000 Hz.
   HandPoseSource(std::shared_ptr<LcmBus> bus, const HandPoseOptions& options);

@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/safety_envelope.h>
@@ -41,10 +42,10 @@ enum class PartState : std::int32_t {
 inline constexpr std::int32_t kPartStates = 6;
 
 /// The name of a state, such as "sliding"; "unknown" for any other value.
-std::string_view name_of(PartState state);
+GLISSADE_EXPORT std::string_view name_of(PartState state);
 
 /// The state with this number; kUnknown for any other number.
-PartState part_state_from_number(std::int32_t number) noexcept;
+GLISSADE_EXPORT PartState part_state_from_number(std::int32_t number) noexcept;
 
 /// Maximum number of parts and of hands in a `HapticState`.
 inline constexpr std::size_t kHapticParts = 4;
@@ -137,7 +138,7 @@ struct HapticState {
 /// Publishes the state of every tick on the LCM channel HAPTIC_STATE without delaying the loop. Viewers and recorders
 /// listen to this channel. The haptic thread fills a ring buffer. A second thread, which the publisher starts, sends
 /// the contents and calls the listener with every state.
-class HapticStatePublisher {
+class GLISSADE_EXPORT HapticStatePublisher {
  public:
   static constexpr std::size_t kDefaultCapacity = 1024;  ///< the states of about one second
 

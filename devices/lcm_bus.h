@@ -19,6 +19,8 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/base/export.h>
+
 namespace glissade::devices {
 
 /// A secret that all programs on an address share. With a key, each message carries a code of 32 bytes (keyed BLAKE2b
@@ -32,7 +34,7 @@ struct LcmKey {
 /// Reads a key: one line of 64 hexadecimal digits, as printed by `openssl rand -hex 32`. Throws std::invalid_argument,
 /// naming the file, in these cases: the file cannot be read; its format is wrong; or its permissions let a user other
 /// than the owner read or write it.
-LcmKey read_lcm_key(const std::string& path);
+GLISSADE_EXPORT LcmKey read_lcm_key(const std::string& path);
 
 /// Sends and receives raw messages by channel. The first subscription starts one receive thread for all subscribers.
 /// The receive thread inherits the scheduling policy of the thread that subscribes first. Channel names are 1 to 15
@@ -40,7 +42,7 @@ LcmKey read_lcm_key(const std::string& path);
 ///
 /// Thread-safety: any number of threads may subscribe and publish at once. All functions may block and allocate, so do
 /// not call them in a real-time thread.
-class LcmBus {
+class GLISSADE_EXPORT LcmBus {
  public:
   /// The function that receives messages. The receive thread calls it with one message at a time. The bytes are valid
   /// only during the call. Exceptions that the function throws are ignored. A handler must neither subscribe nor end a
@@ -79,7 +81,7 @@ class LcmBus {
   std::unique_ptr<Connection> connection_;
 };
 
-class LcmBus::Subscription {
+class GLISSADE_EXPORT LcmBus::Subscription {
  public:
   Subscription(Connection& connection, std::string channel, std::int64_t id);
   Subscription(const Subscription&) = delete;
@@ -126,6 +128,6 @@ struct LinkStatistics {
 
 /// The defects in the contents of rejected messages, each with the field of the first one, such as "a number is not
 /// finite: position_WH_m[1] is nan".
-std::vector<std::string> refusals_of(const LinkStatistics& link);
+GLISSADE_EXPORT std::vector<std::string> refusals_of(const LinkStatistics& link);
 
 }  // namespace glissade::devices

@@ -19,6 +19,7 @@
 #include <string>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/calibration.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/hand_pose.h>
@@ -38,7 +39,7 @@ inline constexpr std::int64_t kDefaultDevice = 1;
 
 /// Receives the announcements of gloves, from construction on. Each `LcmGloveHost` sends its announcement on the
 /// channel GLOVE_INFO five times a second. Any thread.
-class GloveSearch {
+class GLISSADE_EXPORT GloveSearch {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive.
   explicit GloveSearch(std::shared_ptr<LcmBus> bus);
@@ -76,7 +77,7 @@ struct LcmGloveOptions {
 /// The haptic loop's end of the link. It receives states on the channel GLOVE_STATE in the receive thread of the bus,
 /// and sends every command on GLOVE_COMMAND in a separate thread. If any command was sent, the destructor sends a last
 /// command with zero forces and torques.
-class LcmGlove final : public GloveDevice {
+class GLISSADE_EXPORT LcmGlove final : public GloveDevice {
  public:
   /// Throws std::invalid_argument in these cases: the bus is null or cannot receive; the descriptor is not valid; or
   /// the send period is not positive.
@@ -131,7 +132,7 @@ struct LcmGloveHostOptions {
 /// device measures them. The host adds the pose of a tracker and applies the calibration, before the envelope and the
 /// server get the state, and turns commands back into angles of the device. Thread-safety: one thread, the driver's,
 /// calls `publish` and `newest_command`.
-class LcmGloveHost {
+class GLISSADE_EXPORT LcmGloveHost {
  public:
   /// `descriptor` is that of the bare device. Throws std::invalid_argument when the bus is null or cannot receive; the
   /// descriptor is not valid; the calibration is not for this device (`check_calibration`); or a device that exerts

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/realtime/clock.h>
@@ -21,7 +22,7 @@ namespace glissade::devices {
 ///
 /// Thread-safety: one driver's thread and one haptic thread. Progress: all functions except the constructor are
 /// wait-free and allocate nothing. The glove must outlive its server.
-class RelayGlove final : public GloveDevice {
+class GLISSADE_EXPORT RelayGlove final : public GloveDevice {
  public:
   /// Throws what `validate` throws for the descriptor. `clock` is the clock of the server; null is the steady clock of
   /// the system. The clock must outlive the glove.

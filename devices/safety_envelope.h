@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 
 namespace glissade::devices {
@@ -14,7 +15,7 @@ namespace glissade::devices {
 struct Calibration;
 
 /// A command that a device may execute. Only `SafetyEnvelope` makes a `SafeCommand` that is not zero.
-class SafeCommand {
+class GLISSADE_EXPORT SafeCommand {
  public:
   /// No force.
   SafeCommand() = default;
@@ -49,8 +50,8 @@ class SafeCommand {
 
 /// The most serious reason in plain words, such as "no force: the glove's state is 14 ms old". Empty if there is no
 /// reason. `age` is the age of the newest state if this state is old, else `SafeCommand::age`.
-std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
-std::string to_text(const SafeCommand& command);
+GLISSADE_EXPORT std::string to_text(const LimitReasons& reasons, std::chrono::nanoseconds age);
+GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 
 /// An envelope protects each device. A link has an envelope at the server's end and another at the glove's end. A
 /// device in the server's process has a single envelope. The envelope remembers the last command and the last state, so
@@ -97,7 +98,7 @@ std::string to_text(const SafeCommand& command);
 /// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring
 /// them to zero within 15 periods, because the hand could draw energy from a force that falls too slowly. Not
 /// thread-safe. Real-time safe: no allocation, no lock, no system call.
-class SafetyEnvelope {
+class GLISSADE_EXPORT SafetyEnvelope {
  public:
   /// States and commands older than `patience_periods` periods count as old. A period is the longer of the periods of
   /// device and caller. Throws what `validate` throws.

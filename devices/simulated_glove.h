@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
 #include <glissade/geometry/pose_trajectory.h>
@@ -35,7 +36,8 @@ struct TimedAngles {
 
 /// The angles at `time`: interpolated between two entries, constant before the first and after the last entry. `timed`
 /// must have at least one entry, and ascending times. Cost O(log n).
-hands::JointValues angles_at(const std::vector<TimedAngles>& timed, std::chrono::nanoseconds time) noexcept;
+GLISSADE_EXPORT hands::JointValues angles_at(const std::vector<TimedAngles>& timed,
+                                             std::chrono::nanoseconds time) noexcept;
 
 /// The glove and its wearer, in SI units. The wearer is a critically damped spring and damper between hand and script.
 /// The stiffness is that of a relaxed to slightly tensed human arm. A steady force F displaces the hand from the script
@@ -67,7 +69,7 @@ struct SimulatedGloveParameters {
 
 /// Descriptor of the simulated glove, with the limits of stronger grounded arms in the literature: 20 N, 1 Nm, 4000 N/m
 /// and 1000 updates per second. The joint limits are the limits of the human hand.
-DeviceDescriptor simulated_glove_descriptor();
+GLISSADE_EXPORT DeviceDescriptor simulated_glove_descriptor();
 
 struct GloveModel;
 struct LinkLosses;
@@ -75,7 +77,7 @@ class ModelledGlove;
 
 /// Integrates by semi-implicit Euler in steps of at most 1 ms. Fingers of a model, and arms that hold half-spaces, are
 /// integrated at 8 kHz. Allocates only at construction. Not thread-safe.
-class SimulatedGlove {
+class GLISSADE_EXPORT SimulatedGlove {
  public:
   /// Starts at rest at the first pose of `script_X_WH`, the intended trajectory of the hand root. Throws
   /// std::invalid_argument, naming the parameter, in these cases: a number is not finite; a damping is negative; a

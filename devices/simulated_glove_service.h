@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/simulated_glove.h>
@@ -24,7 +25,7 @@ class WearersView;
 /// glove may start in either order. After that, the script follows the clock, even if the thread misses periods. The
 /// wearer sees the parts on the channel HAPTIC_STATE. The wearer slows down when the parts lag behind the hand or the
 /// server is slow, stops when the parts stand still, and waits for at most three seconds.
-class SimulatedGloveService {
+class GLISSADE_EXPORT SimulatedGloveService {
  public:
   /// Receives the new state and the command that led to this state, in each period, in the thread of the service. The
   /// first result false lets the force fade and stay at zero.

@@ -9,6 +9,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
+
 namespace glissade::geometry {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
@@ -26,27 +28,28 @@ struct Displacement {
 };
 
 /// The rotation by the angle |w| (radians) about the axis w.
-Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
+GLISSADE_EXPORT Eigen::Quaterniond rotation_by(const Eigen::Vector3d& w);
 
 /// The pose of a part after a displacement from X_WV. `p_Vref` is the reference point in the part's frame. The rotation
 /// of the result stays orthonormal up to rounding after any number of successive displacements.
-Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref, const Displacement& d);
+GLISSADE_EXPORT Eigen::Isometry3d displaced(const Eigen::Isometry3d& X_WV, const Eigen::Vector3d& p_Vref,
+                                            const Displacement& d);
 
 /// The displacement (p_G − p_V, log(R_G R_Vᵀ)) that takes the part from X_WV to X_WG. Here p_V and p_G are the
 /// positions of the reference point in the world before and after the displacement. `p_Vref` is the reference point in
 /// the part's frame.
-Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
-                                  const Eigen::Vector3d& p_Vref);
+GLISSADE_EXPORT Displacement displacement_between(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WG,
+                                                  const Eigen::Vector3d& p_Vref);
 
 /// Upper bound (metres) of |x(t) − x(0)| for every point x of a part and every t during a displacement. The bound is
 /// |v| + 2 sin(|w|/2) ρ. Here ρ = `radius` is the largest distance of a point of the part from the reference point. An
 /// angle |w| beyond π counts as π.
-double motion_bound(const Displacement& d, double radius);
+GLISSADE_EXPORT double motion_bound(const Displacement& d, double radius);
 
 /// A fraction f in [0, 1] with motion_bound(d.scaled(f), radius) ≤ `longest` (metres). f is 1 if the whole displacement
 /// d satisfies this inequality. f differs from `longest` / motion_bound(d, radius), because `motion_bound` is not
 /// linear.
-double fraction_within(const Displacement& d, double radius, double longest);
+GLISSADE_EXPORT double fraction_within(const Displacement& d, double radius, double longest);
 
 /// The rigid pose nearest to an almost rigid X = (R, p):
 /// - If the `rotation_defect` of R is below 1e-12, the result is X itself. A product of a few rotations always has such
@@ -57,7 +60,7 @@ double fraction_within(const Displacement& d, double radius, double longest);
 ///
 /// So the rotation of every result has a defect below 1e-12, and error bounds derived for rotations apply to it. Cost:
 /// about ten nanoseconds.
-std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
+GLISSADE_EXPORT std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
 /// The defect δ: the sum of the absolute entries of RᵀR − 1, where 1 is the identity matrix. The defect is 0 for an
 /// exact rotation or reflection. The defect is an upper bound of every common norm of RᵀR − 1. The defect is not finite

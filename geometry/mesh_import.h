@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::geometry {
@@ -43,10 +44,10 @@ struct ImportedMesh {
 /// - A glTF file has only compressed data, requires an unknown extension, or has buffers outside its folder.
 ///
 /// The message is one line that names the file and the faulty line, element or value. May block on the disk.
-ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
+GLISSADE_EXPORT ImportedMesh import_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 /// Like `import_mesh`, but keeps vertices and triangles as in the file. Nothing is welded or dropped. Vertices that no
 /// triangle uses need not be finite.
-ImportedMesh import_unwelded_mesh(const std::filesystem::path& path, double scale = 1.0);
+GLISSADE_EXPORT ImportedMesh import_unwelded_mesh(const std::filesystem::path& path, double scale = 1.0);
 
 }  // namespace glissade::geometry

@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::geometry {
@@ -23,7 +24,7 @@ namespace glissade::geometry {
 /// Features are the edges that are not flat (`Edge::flat`) and the vertices that can stop another mesh (`can_stop`). A
 /// feature stops another mesh if a contact at this feature keeps the two meshes apart. In every contact of two meshes,
 /// a vertex of one mesh meets a face, edge or vertex of the other mesh, or two edges meet.
-class MeshTopology {
+class GLISSADE_EXPORT MeshTopology {
  public:
   struct Edge {
     std::array<std::int32_t, 2> vertices;
@@ -122,6 +123,6 @@ struct MeshReport {
 };
 
 /// Counts the elements and defects of a mesh. Throws std::invalid_argument for an index out of range. Cost O(n log n).
-MeshReport report(const TriangleMesh& mesh);
+GLISSADE_EXPORT MeshReport report(const TriangleMesh& mesh);
 
 }  // namespace glissade::geometry

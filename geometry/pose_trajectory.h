@@ -10,6 +10,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
+
 namespace glissade::geometry {
 
 /// One row of a trajectory: the pose X_WB of some frame B in the world.
@@ -27,7 +29,7 @@ struct FrameVelocity {
 /// A trajectory gives a pose for every time. Between two rows, the translation is linear, and the rotation is a slerp
 /// along the shorter arc. Before the first row and after the last row, the pose is constant. Immutable after
 /// construction, so threads may share it.
-class PoseTrajectory {
+class GLISSADE_EXPORT PoseTrajectory {
  public:
   /// Throws std::invalid_argument if there is no row. Also throws, naming the row (counted from 0), in these cases:
   /// - The time of a row is not greater than the time of the row before.

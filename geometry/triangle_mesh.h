@@ -11,6 +11,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
+
 namespace glissade::geometry {
 
 /// Indices of a triangle's three vertices.
@@ -38,30 +40,30 @@ struct TriangleMesh {
 
 /// All triangles of `meshes` as one mesh, in the order of the meshes. Vertices are copied, not welded, so the input
 /// meshes stay separate components. Throws std::invalid_argument if the result would have more than 2^31 - 1 vertices.
-TriangleMesh merge(std::span<const TriangleMesh> meshes);
+GLISSADE_EXPORT TriangleMesh merge(std::span<const TriangleMesh> meshes);
 
 /// The mesh `mesh_B`, transformed from coordinates of frame B to coordinates of frame A.
-TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_AB);
+GLISSADE_EXPORT TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen::Isometry3d& X_AB);
 
 /// A copy of the mesh in which the orientation of each triangle is reversed with probability one half. Equal seeds give
 /// equal meshes. Tests use this function to check that nothing in this library depends on the orientation of triangles.
-TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
+GLISSADE_EXPORT TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
 /// Merges vertices at identical positions; 0 and -0 count as identical. Keeps all triangles, including degenerate
 /// triangles, in their order. Drops vertices that no triangle uses. Numbers the other vertices in the order of first
 /// use.
-TriangleMesh weld(const TriangleMesh& mesh);
+GLISSADE_EXPORT TriangleMesh weld(const TriangleMesh& mesh);
 
 /// The axis-aligned bounding box of all vertices in the mesh's frame; empty without vertices.
-Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh);
+GLISSADE_EXPORT Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh);
 
 /// Indices of the triangles with all three corners in the box, in ascending order.
-std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
+GLISSADE_EXPORT std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
 /// Makes the given triangles (indices in ascending order) degenerate. Degenerate triangles take part in no query. All
 /// other triangles keep their indices. Use this function if a part in its final position overlaps an obstacle by
 /// design. Then remove those triangles of the obstacle that bend out of the way in reality, such as the spring tongues
 /// in the slot of a car radio.
-TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
+GLISSADE_EXPORT TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

@@ -11,19 +11,21 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
+
 namespace glissade::geometry {
 
 /// The three corners of a triangle, all in one frame.
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
 /// Whether a triangle has no area because its three points lie on one line. Exact.
-bool is_degenerate(const TrianglePoints& triangle);
+GLISSADE_EXPORT bool is_degenerate(const TrianglePoints& triangle);
 
 /// Whether two closed triangles share a point. Exact for the given coordinates. Triangles that touch share a point.
 /// Coplanar pairs, shared edges and shared vertices need no special treatment. `a` must not be degenerate. `b` may be
 /// degenerate, for example by rounding in a transformation. A degenerate `b` counts as the segment or point that its
 /// corners span.
-bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
+GLISSADE_EXPORT bool triangles_intersect(const TrianglePoints& a, const TrianglePoints& b);
 
 /// The distance of two triangles in metres, and the two points at this distance.
 struct TriangleDistance {
@@ -36,7 +38,7 @@ struct TriangleDistance {
 /// distance is 0, both points are the same point of the intersection, up to rounding. Otherwise the distance is
 /// accurate to a few units in the last place of the largest coordinate. `a` must not be degenerate. `b` may be
 /// degenerate, as in `triangles_intersect`.
-TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints& b);
+GLISSADE_EXPORT TriangleDistance triangle_distance(const TrianglePoints& a, const TrianglePoints& b);
 
 inline constexpr std::size_t kPairsToMeasure = 8;
 
@@ -72,7 +74,7 @@ struct alignas(64) ClosestPoints {
 /// For each pair that does not intersect, finds the squared distance and the closest points, bit-identical to
 /// `triangle_distance`. For other pairs, `is_apart` is 0, and the points are meaningless. Uses vector code.
 /// Thread-safe.
-void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& closest);
+GLISSADE_EXPORT void find_closest_points(const TrianglesToMeasure& triangles, ClosestPoints& closest);
 
 /// The kind of feature on which a point of a triangle lies.
 enum class Region : std::uint8_t { kFace, kEdge, kVertex };

@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/sliding_result.h>
 #include <glissade/grasping/kinematic_chain.h>
@@ -26,7 +27,7 @@ enum class ClaspState : std::uint8_t {
   kLost,  ///< the track is lost (`lose_track`); like `kWaiting`, until the next target
 };
 
-std::string_view name_of(ClaspState state);
+GLISSADE_EXPORT std::string_view name_of(ClaspState state);
 
 struct ClaspRules {
   /// The gap (metres) at which contacts stop a link.
@@ -56,7 +57,7 @@ struct LinkContact {
 /// its links.
 ///
 /// Deterministic. Not thread-safe.
-class Clasp {
+class GLISSADE_EXPORT Clasp {
  public:
   /// `fixed` are bodies that never move. `objects` stand still during a call, and may be placed elsewhere between
   /// calls. The links of the chain may touch each other. Throws std::invalid_argument for a null chain, for a chain

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/base/export.h>
 #include <glissade/grasping/clasp.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/hands/hand.h>
@@ -35,9 +36,9 @@ inline constexpr std::int32_t kGraspLacks = 5;
 
 /// A sentence about what a grasp lacks, such as "a grasp needs a finger as well, or the palm and a middle or outer
 /// segment"; empty for `kNothing`.
-std::string_view words_of(GraspLack lack);
+GLISSADE_EXPORT std::string_view words_of(GraspLack lack);
 
-struct Grasp {
+struct GLISSADE_EXPORT Grasp {
   GraspType type = GraspType::kNone;
   GraspForm form = GraspForm::kNone;
   std::int32_t object = -1;   ///< number of the touched body, as in `Contact::obstacle`; −1: none
@@ -52,10 +53,10 @@ struct Grasp {
 };
 
 /// The grasp of a hand with fingers, from the data of the haptic loop. `Grasp::object` is not set.
-Grasp grasp_of(const hands::VisibleHand& hand);
+GLISSADE_EXPORT Grasp grasp_of(const hands::VisibleHand& hand);
 
 /// A sentence without a full stop, such as "power: the palm and the middle segment of the index touch".
-std::string reason_of(const Grasp& grasp);
+GLISSADE_EXPORT std::string reason_of(const Grasp& grasp);
 
 /// Follows the grasp over time. A delay keeps sensor noise from making a grasp flicker: a segment counts as touching
 /// once it has touched in most of the last 40 ms, and no longer counts once it has hardly touched for 70 ms. No grasp
@@ -63,7 +64,7 @@ std::string reason_of(const Grasp& grasp);
 /// contacts to `update` that noise may have removed. A segment may touch up to three bodies. The body with the firmest
 /// grasp counts, in the order power, precision, push. A grasp that holds a part, scripted or not, takes precedence over
 /// any grasp of a fixed body. Real-time safe after construction. Not thread-safe.
-class GraspAnalysis {
+class GLISSADE_EXPORT GraspAnalysis {
  public:
   /// The first `fixed_bodies` bodies never move.
   explicit GraspAnalysis(const HandModel& hand, std::size_t fixed_bodies = 0)

@@ -12,6 +12,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/contact_body.h>
 #include <glissade/contact/multi_part_sliding.h>
 #include <glissade/contact/sliding_rules.h>
@@ -65,7 +66,7 @@ struct HoldDecision {
 /// With the second `advance`, the caller sets the holds and supplies the ghosts of held parts, as the haptic thread of
 /// a server does. A `decision` takes effect once the caller has set the hold. The part's target is then relative to the
 /// tracked palm, not to the visible palm, so nothing moves when a hand takes hold.
-class GraspSimulation {
+class GLISSADE_EXPORT GraspSimulation {
  public:
   /// With hands, parts are loose at the start, unless scripts lead them. Scripted parts cannot be held. Throws
   /// std::invalid_argument for a null hand, for more than `hands::kMaxHands` hands, and for an `up_W` that is no unit

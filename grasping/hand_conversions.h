@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/grasping/hand_model.h>
 #include <glissade/hands/hand.h>
 
@@ -61,7 +62,7 @@ using OpenXrJoints = std::array<OpenXrJoint, kOpenXrJoints>;
 
 /// The OpenXR joints of a hand. The joint `wrist` is at the wrist, with the axes of the palm. The joint `palm` is in
 /// the middle of the middle finger's metacarpal. Real-time safe; about 2 µs.
-OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
+GLISSADE_EXPORT OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
 
 /// The pose of `hand` that is nearest to tracked joints. Uses the rotations of the joints and the position of the
 /// wrist, so the bone lengths of the tracked hand do not matter. Each flex value is the least-squares angle of its
@@ -71,7 +72,7 @@ OpenXrJoints to_openxr(const HandModel& hand, const HandPose& pose) noexcept;
 /// OpenXR has no forearm. So both wrist angles are 0, and R is the frame of the palm. Values may lie beyond the limits
 /// (`KinematicChain::clamp`). The function is the inverse of `to_openxr` up to rounding if the wrist angles are 0.
 /// Real-time safe; about 3 µs.
-HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept;
+GLISSADE_EXPORT HandPose from_openxr(const HandModel& hand, const OpenXrJoints& joints) noexcept;
 
 inline constexpr std::size_t kAdroitJoints = 24;
 
@@ -90,7 +91,7 @@ inline constexpr std::array<std::string_view, kAdroitJoints> kAdroitJointNames{
 /// and −THJ0. THJ2, a sideways motion of the thumb's MCP joint, has no counterpart. Values may lie beyond the limits.
 ///
 /// Throws std::invalid_argument for a left hand.
-HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,
-                     const Eigen::Isometry3d& X_WAdroit);
+GLISSADE_EXPORT HandPose from_adroit(const HandModel& hand, const std::array<double, kAdroitJoints>& joints,
+                                     const Eigen::Isometry3d& X_WAdroit);
 
 }  // namespace glissade::grasping

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/grasping/kinematic_chain.h>
 #include <glissade/hands/hand.h>
 
@@ -26,7 +27,7 @@ struct HandShape {
 enum class Finger { kNone, kThumb, kIndex, kMiddle, kRing, kLittle };
 
 /// The name of a finger, such as "middle finger"; empty for `kNone`.
-std::string_view name_of(Finger finger);
+GLISSADE_EXPORT std::string_view name_of(Finger finger);
 
 /// Kinds of segments, from the palm outwards. The inner segment of a finger is its proximal phalanx. The inner segment
 /// of the thumb is its metacarpal.
@@ -41,7 +42,7 @@ struct SegmentMeaning {
 };
 
 /// A set of touching segments.
-class TouchingSegments {
+class GLISSADE_EXPORT TouchingSegments {
  public:
   void add(const SegmentMeaning& segment) { bits_ |= bit(segment); }
   bool has(const SegmentMeaning& segment) const { return (bits_ & bit(segment)) != 0; }
@@ -66,7 +67,7 @@ class TouchingSegments {
 };
 
 /// The name of a segment, such as "the middle segment of the index".
-std::string words_of(const SegmentMeaning& segment);
+GLISSADE_EXPORT std::string words_of(const SegmentMeaning& segment);
 
 /// Every hand has the same links in the same order.
 inline constexpr std::size_t kHandLinks = 25;
@@ -96,6 +97,6 @@ struct HandModel {
 
 /// Throws std::invalid_argument for a length outside 0.05 ... 0.5 m, a breadth outside 0.3 ... 0.7 of the length, or a
 /// side that is not known. Allocates 18 meshes of 150 to 400 triangles, in metres.
-HandModel make_hand(const HandShape& shape = {});
+GLISSADE_EXPORT HandModel make_hand(const HandShape& shape = {});
 
 }  // namespace glissade::grasping

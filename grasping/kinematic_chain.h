@@ -15,6 +15,7 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/geometry/triangle_mesh.h>
 
 namespace glissade::grasping {
@@ -53,7 +54,7 @@ struct Posture {
 
 /// Immutable after construction, so threads may share it. All functions but the constructor are real-time safe: they
 /// neither allocate nor wait.
-class KinematicChain {
+class GLISSADE_EXPORT KinematicChain {
  public:
   /// Throws std::invalid_argument, naming the link or the flex value, in these cases: there are no links; a name is
   /// empty or occurs twice; a number is not finite; a lower limit exceeds the upper limit; a parent does not come
@@ -131,6 +132,6 @@ struct UrdfChain {
 /// formed; a joint is prismatic, floating or planar; the links do not form one tree; a limit, axis, size or scale is
 /// invalid; a joint mimics a missing or fixed joint, or mimic joints form a cycle; or a mesh file cannot be found or
 /// imported. May block on the disk.
-UrdfChain read_urdf(const std::filesystem::path& path);
+GLISSADE_EXPORT UrdfChain read_urdf(const std::filesystem::path& path);
 
 }  // namespace glissade::grasping

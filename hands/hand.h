@@ -10,6 +10,8 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
+
 namespace glissade::hands {
 
 /// Maximum number of hands in one simulation.
@@ -124,9 +126,9 @@ struct VisibleHand {
 };
 
 /// The name of an activity or a type, such as "holding" or "power". Any other value is called "none".
-std::string_view name_of(HandActivity activity);
-std::string_view name_of(GraspType type);
+GLISSADE_EXPORT std::string_view name_of(HandActivity activity);
+GLISSADE_EXPORT std::string_view name_of(GraspType type);
 /// The name of a form, such as "tip-pinch"; empty for kNone and any other value.
-std::string_view name_of(GraspForm form);
+GLISSADE_EXPORT std::string_view name_of(GraspForm form);
 
 }  // namespace glissade::hands

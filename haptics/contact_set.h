@@ -13,6 +13,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/projection.h>
 #include <glissade/contact/sliding_result.h>
 #include <glissade/contact/sliding_rules.h>
@@ -132,6 +133,6 @@ struct Ghosts {
 };
 
 /// The state for viewers.
-devices::PartState part_state_of(contact::SlidingState state) noexcept;
+GLISSADE_EXPORT devices::PartState part_state_of(contact::SlidingState state) noexcept;
 
 }  // namespace glissade::haptics

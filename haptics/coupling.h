@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/spring.h>
 
 namespace glissade::devices {
@@ -21,7 +22,7 @@ inline constexpr std::chrono::microseconds kShortestTickPeriod{200};
 inline constexpr std::chrono::milliseconds kLongestTickPeriod{2};
 
 /// Throws std::invalid_argument if `period` lies outside these bounds.
-void validate_tick_period(std::chrono::nanoseconds period);
+GLISSADE_EXPORT void validate_tick_period(std::chrono::nanoseconds period);
 
 /// Damping against translation of the ghost's reference point (N s/m), and against rotation about this point (Nm
 /// s/rad).
@@ -42,32 +43,34 @@ struct Coupling {
 /// the descriptor does not give the damping, b is the smallest damping with which the maker's largest stiffness is
 /// passive if the link adds no delay. Sources: Colgate and Schenkel, Passivity of a class of sampled-data systems,
 /// 1997; Abbott and Okamura, Effects of position quantization and sampling rate on virtual-wall passivity, 2005.
-contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
-                                             std::chrono::nanoseconds delay) noexcept;
+GLISSADE_EXPORT contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device,
+                                                             std::chrono::nanoseconds period,
+                                                             std::chrono::nanoseconds delay) noexcept;
 
 /// The coupling that a device can render without shaking. T is the longer of `period` and the period of the device.
 /// `delay` is the delay of the link, which adds to the device's own delay. The stiffness K is the least of `wanted`,
 /// the descriptor's limit and `passive_stiffness`. The damping is the least of 5 ms times K, the descriptor's limit,
 /// and b − K (T/2 + t_d) with the device's own damping b. Throws std::invalid_argument, naming the device, when the
 /// device cannot render any stiffness against translation or rotation.
-Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
-                      std::chrono::nanoseconds period = kTickPeriod,
-                      std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
+GLISSADE_EXPORT Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
+                                      std::chrono::nanoseconds period = kTickPeriod,
+                                      std::chrono::nanoseconds delay = std::chrono::nanoseconds(0));
 
 /// Like `coupling_for`, but without the check, and for a part whose reference point is at the distance l = `lever`
 /// (metres) from that of the device. The spring against translation then also turns the device, like a spring of the
 /// stiffness K l² against rotation. The device's rotational damping must keep this spring passive, too.
 /// `max_rotational_stiffness` does not limit this spring. Real-time safe.
-Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
-                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
-                                double lever = 0.0) noexcept;
+GLISSADE_EXPORT Coupling coupling_within_limits(const devices::DeviceDescriptor& device,
+                                                const contact::CouplingStiffness& wanted,
+                                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
+                                                double lever = 0.0) noexcept;
 
 /// The damper's wrench on the hand, for the velocity v_W of the ghost's reference point (m/s) and the angular velocity
 /// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So the damper does
 /// not brake a translation perpendicular to the contact normals. The damper's force never exceeds the force of the
 /// contacts, and its torque never exceeds their torque. So the damper sets in smoothly at a new contact, and contacts
 /// and damper together never pull the hand towards a contact that the hand leaves.
-contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
-                              const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W);
+GLISSADE_EXPORT contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
+                                              const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W);
 
 }  // namespace glissade::haptics

@@ -9,6 +9,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/haptics/contact_set.h>
 #include <glissade/haptics/coupling.h>
@@ -36,7 +37,7 @@ struct FingerHand {
 };
 
 /// The `FingerHand` of a hand of the simulation.
-FingerHand finger_hand(const grasping::HandModel& hand);
+GLISSADE_EXPORT FingerHand finger_hand(const grasping::HandModel& hand);
 
 /// The stiffness (Nm/rad) of the spring at each glove joint. At full stiffness, the spring reaches `max_joint_torque`
 /// at a depth of 0.8 degrees, so a finger that presses with a smaller torque stops within this angle. Three bounds may
@@ -46,8 +47,8 @@ FingerHand finger_hand(const grasping::HandModel& hand);
 /// delay. The second is r / (6 rad/s), because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`)
 /// lags behind a quickly tapping finger and would make it rattle. The third is twice the joint's Coulomb friction
 /// divided by the step of the measured angles, because nothing damps a finger within a step. Real-time safe.
-double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
-                        std::chrono::nanoseconds link_delay) noexcept;
+GLISSADE_EXPORT double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
+                                        std::chrono::nanoseconds link_delay) noexcept;
 
 /// `lags` (rad) are the joint angles of the glove minus those of the visible hand. If the lag of a joint closes the gap
 /// of a contact, this joint must go back, at most to the visible hand. Computes by least squares how far (rad) all such
@@ -55,7 +56,7 @@ double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::na
 /// the gradient of a convex energy in the closing joints. These joints together are no stiffer than each joint alone,
 /// and softer if an arm is shorter than 2 mm. If a joint has several contacts, the greatest depth counts, so n joints
 /// may be stiffer by (1 + √n) / 2. Real-time safe: O(joints²) at worst.
-void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
+GLISSADE_EXPORT void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
 /// Computes the joint torques of a glove whose hand clasps an object. Springs push back each joint whose motion from
 /// the visible hand's posture to the glove's goes deeper into a contact, as far as `deepen` says. All other joints get
@@ -69,7 +70,7 @@ void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointVa
 /// take this into account.
 ///
 /// Not thread-safe. Real-time safe: no allocation, no lock, no system call.
-class FingerForces {
+class GLISSADE_EXPORT FingerForces {
  public:
   /// Joints that the device does not have get no torque. Throws what `devices::validate` and `validate_tick_period`
   /// throw. Also throws std::invalid_argument if a limit of the hand is NaN, or if a lower limit exceeds the
@@ -103,7 +104,7 @@ class FingerForces {
 };
 
 /// The input of `FingerForces` from a hand of a simulation. Allocates.
-HandAnswer answer_of(const grasping::GraspSimulation& simulation, std::size_t hand);
+GLISSADE_EXPORT HandAnswer answer_of(const grasping::GraspSimulation& simulation, std::size_t hand);
 
 /// Thumb, index, middle, ring and little finger.
 inline constexpr std::size_t kFingers = 5;
@@ -111,7 +112,7 @@ inline constexpr std::size_t kFingers = 5;
 /// The forces of a hand's fingertips, for a wearer whose fingers are at their targets. The springs of the glove give
 /// the joint torques. The result has the non-negative contact forces whose torques come nearest to these joint torques.
 /// The load of a held part is not included. Not thread-safe.
-class FingertipForces {
+class GLISSADE_EXPORT FingertipForces {
  public:
   /// Throws what the constructor of `FingerForces` throws.
   FingertipForces(const FingerHand& hand, const devices::DeviceDescriptor& device) : springs_(hand, device) {}

@@ -15,6 +15,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/spring.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/safety_envelope.h>
@@ -42,7 +43,7 @@ struct KernelPart {
 };
 
 /// The parts of a simulation.
-std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding);
+GLISSADE_EXPORT std::vector<KernelPart> kernel_parts(const contact::MultiPartSliding& sliding);
 
 /// A hand in a device.
 struct KernelHand {
@@ -90,7 +91,7 @@ struct HapticTick {
 };
 
 /// Real-time safe: bounded work, no allocation, no lock, no system call after construction. Not thread-safe.
-class HapticKernel {
+class GLISSADE_EXPORT HapticKernel {
  public:
   /// When a hand takes hold of a part, the part's ghost moves rigidly with the hand, starting from the part's visible
   /// pose. The coupling of a hand and a part is the result of `coupling_for` with the device, the part's stiffness and

@@ -17,6 +17,7 @@
 #include <string_view>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/haptics/haptic_kernel.h>
@@ -66,7 +67,7 @@ struct HapticServerStatistics {
 
 /// Runs both threads from construction to `stop`. Thread-safety: one thread owns the object. From construction to the
 /// end of `stop`, only the server's threads may use the devices and `simulation`.
-class HapticServer {
+class GLISSADE_EXPORT HapticServer {
  public:
   /// Starts both threads. Devices and simulation must outlive the server. A hand grasps its part when the first state
   /// of its device arrives; the part stays where it is. A part that no hand holds and no script moves lies still and is

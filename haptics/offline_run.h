@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/devices/simulated_glove.h>
 #include <glissade/haptics/haptic_kernel.h>
@@ -39,14 +40,15 @@ struct OfflineRunOptions {
 /// poses of the previous tick. Hands, parts and couplings are as in `HapticServer`. Throws std::invalid_argument for a
 /// null glove, an empty sink or a period out of the bounds of `validate_tick_period`. Also throws what the constructor
 /// of `HapticKernel` throws.
-void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands, grasping::GraspSimulation& simulation,
-                 std::int64_t ticks, const std::function<void(const devices::HapticState&)>& sink,
-                 const OfflineRunOptions& options = {});
+GLISSADE_EXPORT void run_offline(const std::vector<HandInLoop<devices::SimulatedGlove>>& hands,
+                                 grasping::GraspSimulation& simulation, std::int64_t ticks,
+                                 const std::function<void(const devices::HapticState&)>& sink,
+                                 const OfflineRunOptions& options = {});
 
 /// Repeats a recorded run. Ticks and answers consume the recorded inputs, and must produce the recorded bytes. The
 /// simulation needs only the recorded ghosts, so the simulation works ahead of the ticks in a separate thread. Not
 /// thread-safe.
-class Replay {
+class GLISSADE_EXPORT Replay {
  public:
   /// The scene, the rules, the devices and parts of `hands`, the period and `head` must be the same as in the
   /// recording. The fingers of `hands` must be those of the simulation. The simulation must outlive this object, and no

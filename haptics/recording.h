@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include <glissade/base/export.h>
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/glove_device.h>
 #include <glissade/devices/haptic_state.h>
@@ -87,7 +88,7 @@ struct AnswerRecord {
 };
 
 /// Receives the records of a loop. One thread may call both functions, or two threads may call one function each.
-class LoopObserver {
+class GLISSADE_EXPORT LoopObserver {
  public:
   virtual ~LoopObserver() = default;
 
@@ -98,7 +99,7 @@ class LoopObserver {
 /// Passes the records of a real-time loop to observers that may be slow. The observers run in a separate thread. The
 /// haptic thread and the simulation thread only fill ring buffers, so both functions are real-time safe. An answer is
 /// passed on before the ticks that use it.
-class BackgroundObserver final : public LoopObserver {
+class GLISSADE_EXPORT BackgroundObserver final : public LoopObserver {
  public:
   /// The observers must outlive this object.
   explicit BackgroundObserver(std::vector<LoopObserver*> observers);
@@ -133,7 +134,7 @@ struct RecordingHead {
 /// The events of a recording. HAPTIC_TICK and CONTACT_SET have all data that a replay needs. Other LCM programs can use
 /// HAPTIC_STATE, GLOVE_STATE (for each new state) and GLOVE_INFO (five times a second). There are no GLOVE_COMMAND
 /// events, so `lcm-logplayer` moves no glove. The times of events are on the loop's clock. Not thread-safe.
-class RecordedEvents {
+class GLISSADE_EXPORT RecordedEvents {
  public:
   explicit RecordedEvents(RecordingHead head) : head_(std::move(head)) {}
 
@@ -151,10 +152,10 @@ class RecordedEvents {
 
 /// The inputs, start time and duration of the tick in a HAPTIC_TICK event. The results of the tick have default values.
 /// Returns no value if the event is on another channel or its bytes have been changed.
-std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event);
+GLISSADE_EXPORT std::optional<TickRecord> consumed_by_tick(const devices::LogEvent& event);
 
 /// Writes all events to a file.
-class LogRecorder final : public LoopObserver {
+class GLISSADE_EXPORT LogRecorder final : public LoopObserver {
  public:
   /// Throws std::invalid_argument, naming the file, when it cannot be created.
   LogRecorder(const std::string& path, RecordingHead head);
@@ -174,7 +175,7 @@ class LogRecorder final : public LoopObserver {
 };
 
 /// Keeps the events of the last seconds in memory of bounded size. `write` writes them to a file. Thread-safe.
-class FlightRecorder final : public LoopObserver {
+class GLISSADE_EXPORT FlightRecorder final : public LoopObserver {
  public:
   static constexpr std::size_t kDefaultBytes = std::size_t{64} << 20;  ///< about five seconds or more of one hand
 

@@ -5,11 +5,13 @@
 
 #include <chrono>
 
+#include <glissade/base/export.h>
+
 namespace glissade::realtime {
 
 /// A source of time that can also wait. Times are nanoseconds since an epoch. The epoch is arbitrary, but fixed for the
 /// clock's life.
-class Clock {
+class GLISSADE_EXPORT Clock {
  public:
   virtual ~Clock() = default;
 
@@ -25,7 +27,7 @@ class Clock {
 
 /// The clock of the machine, CLOCK_MONOTONIC. The epoch is the same for all processes of a machine. Any number of
 /// threads may use one object.
-class SteadyClock final : public Clock {
+class GLISSADE_EXPORT SteadyClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override;
   void sleep_until(std::chrono::nanoseconds deadline) noexcept override;
@@ -33,7 +35,7 @@ class SteadyClock final : public Clock {
 };
 
 /// A simulated clock. It starts at 0, and only `sleep_until` and `advance` change its time. Not thread-safe.
-class SimulatedClock final : public Clock {
+class GLISSADE_EXPORT SimulatedClock final : public Clock {
  public:
   std::chrono::nanoseconds now() const noexcept override { return now_; }
   void sleep_until(std::chrono::nanoseconds deadline) noexcept override {

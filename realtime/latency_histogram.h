@@ -8,13 +8,15 @@
 #include <cstddef>
 #include <cstdint>
 
+#include <glissade/base/export.h>
+
 namespace glissade::realtime {
 
 /// A log-linear histogram of durations in nanoseconds. Each duration below 128 ns has its own bucket. From 128 ns to
 /// 2^40 ns (18 minutes), each power of two has 64 buckets.
 ///
 /// Not thread-safe. Only the recording thread may read a histogram until this thread has been joined.
-class LatencyHistogram {
+class GLISSADE_EXPORT LatencyHistogram {
  public:
   /// A reported quantile is never below the exact quantile. If the exact quantile is below 18 minutes, the reported
   /// quantile exceeds it by at most the fraction kRelativeError.

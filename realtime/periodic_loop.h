@@ -16,6 +16,7 @@
 #include <chrono>
 #include <cstdint>
 
+#include <glissade/base/export.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/latency_histogram.h>
 
@@ -39,7 +40,7 @@ struct PeriodicTick {
 
 /// Computes deadlines by the scheduling rule (see the top of this file), without a clock. `run_periodic` is the
 /// complete loop.
-class PeriodicSchedule {
+class GLISSADE_EXPORT PeriodicSchedule {
  public:
   /// The first deadline is `start`. Throws std::invalid_argument if `period` is not positive.
   PeriodicSchedule(std::chrono::nanoseconds start, std::chrono::nanoseconds period);
@@ -58,7 +59,7 @@ class PeriodicSchedule {
 
 /// Throws std::invalid_argument unless 0 ≤ `spin` ≤ `period` / 2. Under SCHED_FIFO, a loop that spins all the time
 /// would block all other threads of its processor.
-void validate_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period);
+GLISSADE_EXPORT void validate_spin(std::chrono::nanoseconds spin, std::chrono::nanoseconds period);
 
 /// Calls `tick(const PeriodicTick&) -> bool` every `period` in the calling thread until the tick returns false. The
 /// first call is one period from now. Updates `statistics`. Allocates and locks nothing. Between ticks, the loop sleeps

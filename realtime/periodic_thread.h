@@ -11,6 +11,7 @@
 #include <string_view>
 #include <thread>
 
+#include <glissade/base/export.h>
 #include <glissade/realtime/clock.h>
 #include <glissade/realtime/periodic_loop.h>
 
@@ -47,17 +48,17 @@ struct PeriodicThreadOptions {
 };
 
 /// Sets the name of the calling thread, as shown by `top -H`, debuggers and /proc. The system keeps the first 15 bytes.
-void name_this_thread(std::string_view name) noexcept;
+GLISSADE_EXPORT void name_this_thread(std::string_view name) noexcept;
 
 /// Whether the system would grant `lock_memory`, i.e. whether this process may lock any amount of memory. Changes
 /// nothing.
-bool may_lock_memory() noexcept;
+GLISSADE_EXPORT bool may_lock_memory() noexcept;
 
 /// Locks all present and future memory of this process, so that no thread waits for a page. The system neither swaps
 /// pages out nor defers their allocation to the first access, and the heap keeps freed memory. The whole stack of each
 /// thread, by default 8 MiB, then occupies memory. Returns whether the system granted the lock. If not, nothing has
 /// changed. Programs should call this function at their start. Any thread may call it.
-bool lock_memory() noexcept;
+GLISSADE_EXPORT bool lock_memory() noexcept;
 
 /// What the system granted to a thread.
 struct ThreadScheduling {
@@ -70,13 +71,13 @@ struct ThreadScheduling {
 /// Also sets the timer slack of the thread to the minimum. If the system refuses SCHED_FIFO and `priority` is at least
 /// kLinkPriority, the function requests short time slices instead. The function never fails. The result shows a
 /// refusal.
-ThreadScheduling schedule_this_thread(int priority) noexcept;
+GLISSADE_EXPORT ThreadScheduling schedule_this_thread(int priority) noexcept;
 
 /// The SCHED_FIFO priority of the calling thread; 0 for an ordinary thread.
-int fifo_priority_of_this_thread() noexcept;
+GLISSADE_EXPORT int fifo_priority_of_this_thread() noexcept;
 
 /// Checks whether a thread keeps to its share of processor time in each window.
-class TimeBudget {
+class GLISSADE_EXPORT TimeBudget {
  public:
   explicit TimeBudget(const TimeShare& share) : share_(share) {}
 
@@ -92,7 +93,7 @@ class TimeBudget {
 /// A SCHED_FIFO priority for a share of the time. If a thread computes for more than its share of a window, it becomes
 /// an ordinary thread until the next window. The thread itself constructs and uses the object. The haptic thread must
 /// not use it, because `check` calls the system.
-class FifoShare {
+class GLISSADE_EXPORT FifoShare {
  public:
   /// Requests `priority` in the same way as `schedule_this_thread`.
   FifoShare(int priority, const TimeShare& share)
@@ -112,7 +113,7 @@ class FifoShare {
 
 /// The constructor starts the thread. The thread ends when the tick function returns false, at a call of `stop()`, or
 /// in the destructor. Thread-safety: only the thread that owns the object may call its functions.
-class PeriodicThread {
+class GLISSADE_EXPORT PeriodicThread {
  public:
   /// The tick function. Returns false to end the loop. Must not throw.
   using Tick = std::function<bool(const PeriodicTick&)>;

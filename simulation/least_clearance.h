@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/collision/query_types.h>
 #include <glissade/contact/sliding_result.h>
 #include <glissade/simulation/simulation.h>
@@ -31,7 +32,7 @@ struct ClearanceWork {
 /// Each body keeps the pairs of triangles that were near the part in its last search. While the part moves relative to
 /// the body, a clock adds up how far any point has moved at most. A pair that was d metres apart is still apart by d
 /// less the time since on this clock, and the same holds for all pairs that the search left out.
-class LeastClearance {
+class GLISSADE_EXPORT LeastClearance {
  public:
   /// In radii of the part. Clearances from here on are not looked for: they would take long where almost all pairs of
   /// triangles are as near as the nearest.

@@ -16,6 +16,7 @@
 
 #include <Eigen/Geometry>
 
+#include <glissade/base/export.h>
 #include <glissade/contact/sliding.h>
 #include <glissade/contact/sliding_rules.h>
 #include <glissade/contact/spring.h>
@@ -27,7 +28,7 @@ namespace glissade::simulation {
 
 /// A mesh in metres: a given mesh, the mesh of a file, or a shape of the catalogue. Copies of a `SceneMesh` share the
 /// mesh.
-class SceneMesh {
+class GLISSADE_EXPORT SceneMesh {
  public:
   SceneMesh() = default;
   SceneMesh(geometry::TriangleMesh mesh) : SceneMesh(std::make_shared<const geometry::TriangleMesh>(std::move(mesh))) {}
@@ -89,7 +90,7 @@ struct SceneObject {
 };
 
 /// Objects with different names, hands with fingers, and the rules for holding and contact.
-struct Scene {
+struct GLISSADE_EXPORT Scene {
   std::vector<SceneObject> objects{};
   std::vector<grasping::HandShape> hands{};
   contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;
@@ -113,11 +114,12 @@ struct Scene {
 /// with the same mesh share one copy. The file at `script_path` is not read. Throws std::invalid_argument for every
 /// deviation from the format. The message is one line with the file, the line and the key or value. May block on the
 /// disk. Thread-safe. Reading the meshes takes most of the time.
-Scene read_scene(const std::filesystem::path& path);
+GLISSADE_EXPORT Scene read_scene(const std::filesystem::path& path);
 
 /// Like `read_scene`, for a text in memory. `source` replaces the name of the file in messages. Paths in the scene are
 /// relative to `base_folder`.
-Scene parse_scene(const std::string& text, const std::string& source, const std::filesystem::path& base_folder);
+GLISSADE_EXPORT Scene parse_scene(const std::string& text, const std::string& source,
+                                  const std::filesystem::path& base_folder);
 
 /// Writes a scene file. `read_scene` reads an equal scene from this file, in which every number is bit-identical. The
 /// file has all objects, with poses as matrices, motions row by row, and shapes by their parameters. Mesh files and the
@@ -141,7 +143,7 @@ Scene parse_scene(const std::string& text, const std::string& source, const std:
 /// Throws std::runtime_error if not everything could be written, for example on a full disk. May block on the disk.
 /// Thread-safe, except for calls that write the same file. Cost: linear in the size of the meshes. Each box of
 /// triangles that give way adds a cost linear in the triangles of the object.
-void write_scene(const Scene& scene, const std::filesystem::path& path);
+GLISSADE_EXPORT void write_scene(const Scene& scene, const std::filesystem::path& path);
 
 /// A part that hands can hold.
 struct ScenePart {
@@ -152,7 +154,7 @@ struct ScenePart {
 
 /// The objects of a scene, prepared for contact. Obstacles with the same mesh share a body. Bodies are numbered as in
 /// contacts: first the obstacles, then the parts, then the objects that move on their own.
-struct SceneBodies {
+struct GLISSADE_EXPORT SceneBodies {
   std::string source;            ///< `Scene::source`
   std::vector<ScenePart> parts;  ///< at least one
   std::vector<contact::Obstacle> obstacles;
@@ -176,17 +178,18 @@ struct SceneBodies {
 /// - There are more than `contact::kMaxParts` parts and objects that move on their own.
 ///
 /// Building the trees of the meshes takes most of the time.
-SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names);
+GLISSADE_EXPORT SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names);
 
 /// All parts of a simulation: first the parts that hands can hold, then the objects that move on their own. For the
 /// stiffness, see `Scene`.
-std::vector<contact::HeldPart> held_parts(const SceneBodies& bodies, contact::Metaphor metaphor,
-                                          double stiffness_N_per_m);
+GLISSADE_EXPORT std::vector<contact::HeldPart> held_parts(const SceneBodies& bodies, contact::Metaphor metaphor,
+                                                          double stiffness_N_per_m);
 
 /// The models of hands. Hands of the same shape share a model.
-std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(std::span<const grasping::HandShape> hands);
+GLISSADE_EXPORT std::vector<std::shared_ptr<const grasping::HandModel>> hand_models(
+    std::span<const grasping::HandShape> hands);
 
 /// The mesh of an object without the triangles that give way.
-std::shared_ptr<const geometry::TriangleMesh> stopping_mesh(const SceneObject& object);
+GLISSADE_EXPORT std::shared_ptr<const geometry::TriangleMesh> stopping_mesh(const SceneObject& object);
 
 }  // namespace glissade::simulation

@@ -102,6 +102,10 @@ class CheckArchitecture(unittest.TestCase):
         self.include("collision/world.h", "<glissade/base/require.h>")
         self.expect("collision/world.h", "public header must not include base/require.h")
 
+    def test_the_export_header_is_for_public_headers(self):
+        self.include("realtime/clock.h", "<glissade/base/export.h>")
+        self.assertNotIn("realtime/clock.h", run_check(self.root).stdout)
+
     def test_room_of_another_component(self):
         self.write("collision/tree/one.h", "")
         quoted, angled = '"tree/one.h"', "<glissade/collision/tree/one.h>"

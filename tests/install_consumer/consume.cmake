@@ -34,6 +34,11 @@ file(COPY_FILE ${SOURCE_DIR}/../../examples/01_first_contact.cpp ${readme}/main.
 run(${CMAKE_COMMAND} -S ${readme} -B ${work}/readme -G ${GENERATOR} -DCMAKE_PREFIX_PATH=${work}/prefix)
 run(${CMAKE_COMMAND} --build ${work}/readme)
 run(${work}/readme/my_program)
+# The same program by pkg-config.
+file(GLOB pkg_config LIST_DIRECTORIES true ${work}/prefix/lib/pkgconfig ${work}/prefix/lib/*/pkgconfig)
+set(ENV{PKG_CONFIG_PATH} ${pkg_config})
+run(sh -c "g++ -std=c++20 ${readme}/main.cpp $(pkg-config --static --cflags --libs glissade-simulation) -o ${work}/by_pkg_config")
+run(${work}/by_pkg_config)
 run(${CMAKE_COMMAND} -S ${SOURCE_DIR}/../../examples -B ${work}/examples -G ${GENERATOR}
   -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${work}/prefix)
 run(${CMAKE_COMMAND} --build ${work}/examples)
