@@ -15,12 +15,12 @@ namespace {
 std::string escaped(const std::string& text) {
   std::string result;
   for (const char character : text) {
+    // A line may break after the commas of a list of names.
+    if (result.ends_with(',') && character != ' ' && character != '\n') result += "\\:";
     if (character == '\\') {
       result += "\\e";
     } else if (character == '-') {
       result += "\\-";
-    } else if (character == ',') {
-      result += ",\\:";  // a line may break here, in lists of names
     } else {
       if ((character == '.' || character == '\'') && (result.empty() || result.back() == '\n')) result += "\\&";
       result += character;

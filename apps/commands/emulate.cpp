@@ -7,11 +7,9 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/emulate.h>
-#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/run/status_line.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/usage.h>
-#include <glissade/devices/simulated_glove.h>
 
 namespace glissade::apps {
 
@@ -20,8 +18,8 @@ namespace {
 constexpr const char* kEmulateFooter =
     "An emulator is a device without hardware, with the wire of the real one. To a bridge there is no difference. The\n"
     "fingers, motors and strings of the gloves 'dynamixel' and 'opengloves' have the dynamics of the presets of the\n"
-    "same names, see 'glissade glove --presets'. The hand of 'haply' and 'tracker' follows a script, and so can the\n"
-    "fingers.\n"
+    "same names, see 'glissade glove --presets'. The hand of 'haply' follows a script, and so can the\n"
+    "fingers and the palm of a glove.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"
@@ -64,19 +62,6 @@ void add_emulate_options(CLI::App& command, EmulateOptions& options, const std::
       ->capture_default_str();
 }
 
-void add_wearer_option(CLI::App& command, std::string& script) {
-  command.add_option("--script", script, "Trajectory with joint angles (CSV), by which the wearer moves the fingers");
-}
-
-bridges::EmulatedWearer wearer_of(const std::string& script) {
-  if (script.empty()) return bridges::busy_wearer;
-  std::vector<devices::TimedAngles> fingers = read_hand_script(script).fingers;
-  if (fingers.empty()) throw std::invalid_argument(script + ": the columns of the 22 joint angles are missing");
-  return [fingers = std::move(fingers)](std::chrono::nanoseconds time) {
-    return devices::angles_at(fingers, fingers.front().time + time - kScriptWait);
-  };
-}
-
 bridges::LineFaults line_faults(const EmulateOptions& options, double share, std::chrono::nanoseconds slowness) {
   bridges::LineFaults faults;
   if (options.has_fault("garbage")) faults.garbage = share;
@@ -113,7 +98,6 @@ void add_emulate_command(CLI::App& app, Command& chosen) {
   add_emulate_dynamixel(*command, chosen);
   add_emulate_haply(*command, chosen);
   add_emulate_opengloves(*command, chosen);
-  add_emulate_tracker(*command, chosen);
 }
 
 }  // namespace glissade::apps

@@ -30,16 +30,6 @@ inline const std::vector<std::string> kLineFaults{"garbage", "cut", "wrong-bits"
 void add_emulate_options(CLI::App& command, EmulateOptions& options,
                          const std::vector<std::string>& faults = kLineFaults);
 
-/// --script of a glove whose wearer moves the fingers by the angles of a script.
-void add_wearer_option(CLI::App& command, std::string& script);
-
-/// The wearer of this script: the fingers move two seconds after the start. Of no script: `bridges::busy_wearer`.
-/// Throws what `read_hand_script` throws, and std::invalid_argument for a script without joint angles.
-bridges::EmulatedWearer wearer_of(const std::string& script);
-
-/// The time from the start to the first move of a script, so that bridge and server can start.
-inline constexpr std::chrono::seconds kScriptWait{2};
-
 /// The faults of the line that --fault names. `share` is that of the packets or lines with each fault, `slowness` that
 /// of a slow device.
 bridges::LineFaults line_faults(const EmulateOptions& options, double share, std::chrono::nanoseconds slowness);
@@ -76,8 +66,5 @@ void add_emulate_haply(CLI::App& emulate, Command& chosen);
 
 /// `glissade emulate opengloves [--link PATH|--tcp PORT] [--encoding alpha|legacy] [--fault ...]`
 void add_emulate_opengloves(CLI::App& emulate, Command& chosen);
-
-/// `glissade emulate tracker --script FILE [--device N] [--rate-hz R]`
-void add_emulate_tracker(CLI::App& emulate, Command& chosen);
 
 }  // namespace glissade::apps

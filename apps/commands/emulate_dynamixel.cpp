@@ -9,6 +9,7 @@
 
 #include <glissade/apps/commands/dynamixel_option.h>
 #include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/commands/emulated_wearer.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/bridges/dynamixel_emulator.h>
@@ -21,7 +22,9 @@ constexpr const char* kDynamixelFooter =
     "Prints the port of its bus on standard output and, on a second line, that of its measuring board if it has\n"
     "one. A wearer closes and opens all fingers, each a little later than the one before, or moves them as a script\n"
     "says, against the servos. The script is that of 'glissade glove' with joint angles, and begins after two\n"
-    "seconds. Faults: 'garbage' before one packet in fifty, one packet in fifty 'cut' or with 'wrong-bits', 'echo' of\n"
+    "seconds. With --tracker, a tracker sends the poses of the same script 90 times a second on HAND_POSE, for\n"
+    "'glissade bridge' with --pose-from. Faults: 'garbage' before one packet in fifty, one packet in fifty 'cut' or "
+    "with 'wrong-bits', 'echo' of\n"
     "all that arrives, 'slow' (each answer comes 3 ms late), 'unplug' at random.\n"
     "\n"
     "Examples:\n"
@@ -32,7 +35,7 @@ constexpr const char* kDynamixelFooter =
 
 struct DynamixelEmulation {
   EmulateOptions emulate;
-  std::string script;
+  WearerOptions wearer;
   DynamixelOption hand;
   std::string link;
   std::string board_link;
@@ -57,7 +60,7 @@ int run(const DynamixelEmulation& options) {
                                        .board_link = options.board_link,
                                        .faults = line_faults(options.emulate, kShare, std::chrono::milliseconds(3)),
                                        .seed = options.emulate.seed,
-                                       .wearer = wearer_of(options.script)});
+                                       .wearer = wearer_of(options.wearer)});
   std::cout << emulator.port() << std::endl;  // for a program that waits for it
   if (!emulator.board_port().empty()) std::cout << emulator.board_port() << std::endl;
   double greatest_Nm = 0.0;
@@ -84,7 +87,7 @@ void add_emulate_dynamixel(CLI::App& emulate, Command& chosen) {
   add_dynamixel_option(*glove, options->hand);
   glove->add_option("--link", options->link, "Path of a link to the port of the bus, which stays after unplugging");
   glove->add_option("--board-link", options->board_link, "The same for the measuring board");
-  add_wearer_option(*glove, options->script);
+  add_wearer_options(*glove, options->wearer);
   add_emulate_options(*glove, options->emulate);
   glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

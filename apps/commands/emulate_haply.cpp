@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/commands/emulated_wearer.h>
 #include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/text.h>

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/emulate.h>
+#include <glissade/apps/commands/emulated_wearer.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
@@ -18,18 +19,24 @@ namespace {
 constexpr const char* kOpenGlovesFooter =
     "Prints its port on standard output. A wearer closes and opens all fingers, each a little later than the one\n"
     "before, or moves them as a script says, within the limits of the servos. The script is that of 'glissade glove'\n"
-    "with joint angles, and begins after two seconds. Faults: 'garbage' before one state in ten, one state in ten "
+    "with joint angles, and begins after two seconds. With --tracker, a tracker sends the poses of the same script 90\n"
+    "times a second on HAND_POSE, for 'glissade bridge' with --pose-from. Faults: 'garbage' before one state in ten, "
+    "one state in ten "
     "'cut' or\n"
     "with 'wrong-bits', 'echo' of all that arrives, 'slow' (each state comes 0.1 s late), 'unplug' at random.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"
     "  glissade emulate opengloves --link glove_port --fault garbage unplug --seconds 4 & glissade bridge opengloves "
-    "--port glove_port --seconds 4";
+    "--port glove_port --seconds 4\n"
+    "\n"
+    "With the files of 'glissade example':\n"
+    "  glissade emulate opengloves --link glove_port --script door_module_script.csv --tracker --seconds 6 & glissade "
+    "bridge opengloves --port glove_port --pose-from lcm --seconds 6";
 
 struct OpenGlovesEmulation {
   EmulateOptions emulate;
-  std::string script;
+  WearerOptions wearer;
   std::string encoding = "alpha";
   std::string link;
   int tcp_port = 0;
@@ -49,7 +56,7 @@ bridges::OpenGlovesEmulatorOptions emulator_options(const OpenGlovesEmulation& o
   emulator.tcp_port = static_cast<unsigned short>(options.tcp_port);
   emulator.faults = line_faults(options.emulate, kShare, std::chrono::milliseconds(100));
   emulator.seed = options.emulate.seed;
-  emulator.wearer = wearer_of(options.script);
+  emulator.wearer = wearer_of(options.wearer);
   return emulator;
 }
 
@@ -91,7 +98,7 @@ void add_emulate_opengloves(CLI::App& emulate, Command& chosen) {
       ->capture_default_str();
   glove->add_option("--rate-hz", options->rate_Hz, "States per second, at most; 1 to 1000")->capture_default_str();
   glove->add_option("--full-scale", options->full_scale, "Number of a closed finger")->capture_default_str();
-  add_wearer_option(*glove, options->script);
+  add_wearer_options(*glove, options->wearer);
   add_emulate_options(*glove, options->emulate);
   glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

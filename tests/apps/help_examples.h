@@ -14,33 +14,19 @@
 namespace glissade::test_support {
 
 /// Every command of the program.
-inline const std::vector<std::string> kCommands{"bridge",
-                                                "bridge dynamixel",
-                                                "bridge haply",
-                                                "bridge opengloves",
-                                                "calibrate",
-                                                "collide",
-                                                "demo",
-                                                "doctor",
-                                                "emulate",
-                                                "emulate dynamixel",
-                                                "emulate haply",
-                                                "emulate opengloves",
-                                                "emulate tracker",
-                                                "example",
-                                                "export",
-                                                "glove",
-                                                "grasp",
-                                                "info",
-                                                "latency",
-                                                "log",
-                                                "log to-csv",
-                                                "log to-mcap",
-                                                "record",
-                                                "replay",
-                                                "run",
-                                                "slide",
-                                                "view"};
+inline const std::vector<std::string> kCommands{"bridge",        "bridge dynamixel",
+                                                "bridge haply",  "bridge opengloves",
+                                                "calibrate",     "collide",
+                                                "demo",          "doctor",
+                                                "emulate",       "emulate dynamixel",
+                                                "emulate haply", "emulate opengloves",
+                                                "example",       "export",
+                                                "glove",         "grasp",
+                                                "info",          "latency",
+                                                "log",           "log to-csv",
+                                                "log to-mcap",   "record",
+                                                "replay",        "run",
+                                                "slide",         "view"};
 
 /// The lines of a command's help that are examples.
 inline std::vector<std::string> examples_of(const std::string& command) {
