@@ -32,8 +32,8 @@ TEST(CalibrateCommand, OfABridgeRefusesATrackerThatIsNone) {
     expect_refused({"bridge", "opengloves", "--port", "/dev/null", "--pose-from", tracker}, {"--pose-from", tracker});
   expect_refused({"bridge", "opengloves", "--port", "/dev/null", "--pose-from", "lcm", "--pose-rate-hz", "0"},
                  {"--pose-rate-hz"});
-  expect_refused({"emulate", "tracker"}, {"--script"});
-  expect_refused({"emulate", "tracker", "--script", "missing.csv"}, {"missing.csv"});
+  expect_refused({"emulate", "opengloves", "--tracker"}, {"--tracker", "--script"});
+  expect_refused({"emulate", "opengloves", "--script", "missing.csv"}, {"missing.csv"});
 }
 
 }  // namespace
