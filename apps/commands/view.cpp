@@ -27,6 +27,7 @@
 #include <glissade/devices/event_log.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/viewer/view_server.h>
+#include <glissade/viewer/view_simulation.h>
 
 namespace glissade::apps {
 
@@ -89,7 +90,7 @@ int view(const ViewOptions& options) {
         options.hand_file.empty() ? grasping::HandShape{} : read_hand_shape(options.hand_file);
     model = std::make_shared<const grasping::HandModel>(grasping::make_hand(shape));
   }
-  viewer::ViewScene scene{.title = file.source, .objects = shown_objects(file, movable_objects(file))};
+  viewer::ViewScene scene{.title = file.source, .objects = viewer::shown_objects(file, movable_objects(file))};
   const ViewedParts parts(file);
   for (const std::int64_t device : options.devices)
     scene.hands.push_back({"glove " + std::to_string(device), model});

@@ -1,36 +1,21 @@
-#include <algorithm>
-#include <cstddef>
 #include <stdexcept>
 
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/wait_notice.h>
+#include <glissade/viewer/view_simulation.h>
 
 namespace glissade::apps {
 
 HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>& part_names) {
   const WaitNotice notice("preparing the meshes of " + scene.source);
   HapticScene result{simulation::bodies_of(scene, part_names)};
-  result.shown = shown_objects(scene, part_names);
+  result.shown = viewer::shown_objects(scene, part_names);
   for (const SceneObject& object : scene.objects) {
     if (!result.part_number(object.name) && !object.motion)
       result.placed_obstacles.push_back({simulation::stopping_mesh(object), object.X_WB});
   }
   return result;
-}
-
-std::vector<viewer::ViewObject> shown_objects(const Scene& scene, const std::vector<std::string>& part_names) {
-  std::vector<viewer::ViewObject> objects;
-  std::size_t next = part_names.size();
-  for (const SceneObject& object : scene.objects) {
-    viewer::ViewObject& shown =
-        objects.emplace_back(viewer::ViewObject{object.name, object.mesh.shared(), object.X_WB});
-    const auto name = std::find(part_names.begin(), part_names.end(), object.name);
-    if (name != part_names.end()) shown.part = static_cast<std::size_t>(name - part_names.begin());
-    shown.moves_on_its_own = object.motion.has_value();
-    if (object.motion) shown.part = next++;
-  }
-  return objects;
 }
 
 std::vector<std::string> movable_objects(const Scene& scene) {

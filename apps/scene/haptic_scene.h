@@ -29,10 +29,6 @@ struct HapticScene : simulation::SceneBodies {
 /// `simulation::bodies_of`, and the rest.
 HapticScene make_haptic_scene(const Scene& scene, const std::vector<std::string>& part_names);
 
-/// All objects of the scene for viewers; the movable ones with the numbers that `part_names` gives them, then those
-/// that move on their own.
-std::vector<viewer::ViewObject> shown_objects(const Scene& scene, const std::vector<std::string>& part_names);
-
 /// The names of the movable objects. Throws std::invalid_argument, naming the scene, when there is none.
 std::vector<std::string> movable_objects(const Scene& scene);
 

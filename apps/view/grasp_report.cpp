@@ -8,6 +8,7 @@
 #include <glissade/apps/view/grasp_report.h>
 #include <glissade/apps/view/session_view.h>
 #include <glissade/contact/spring.h>
+#include <glissade/viewer/view_simulation.h>
 
 namespace glissade::apps {
 
@@ -62,7 +63,7 @@ void GraspReport::add(std::chrono::nanoseconds time) {
   const double time_s = 1e-3 * static_cast<double>(ticks_ - 1);
   for (std::size_t p = 0; p < simulation_.part_count(); ++p) {
     const contact::SlidingResult& result = simulation_.parts().result(p);
-    show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
+    viewer::show_part(result, simulation_.parts().p_Vref(p), p, patches_[p], state);
     parts_.add(time_s, p, state.parts[p]);
     if (p >= scene_.parts.size()) continue;  // moves on its own
     const contact::Wrench wrench =

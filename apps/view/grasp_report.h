@@ -16,6 +16,7 @@
 #include <glissade/apps/view/grasp_outcome.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
+#include <glissade/contact/tracked_contacts.h>
 #include <glissade/grasping/grasp_simulation.h>
 #include <glissade/grasping/hand_model.h>
 

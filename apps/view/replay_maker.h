@@ -11,8 +11,6 @@
 #include <vector>
 
 #include <glissade/apps/report/html_report.h>
-#include <glissade/contact/sliding_result.h>
-#include <glissade/contact/tracked_contacts.h>
 #include <glissade/devices/haptic_state.h>
 #include <glissade/viewer/view_frame.h>
 #include <glissade/viewer/view_scene.h>
@@ -45,10 +43,5 @@ class ReplayMaker {
   std::optional<std::chrono::nanoseconds> first_;
   std::int64_t frame_ = 0;  // the number of the one that is being made
 };
-
-/// Writes a part of a simulation that runs by itself into a state, with the contacts that push on it, and their
-/// patches. `p_Vref` is the part's reference point.
-void show_part(const contact::SlidingResult& result, const Eigen::Vector3d& p_Vref, std::size_t part,
-               contact::ContactPatches& patches, devices::HapticState& state);
 
 }  // namespace glissade::apps

@@ -4,6 +4,7 @@
 #include <glissade/apps/view/slide_replay.h>
 #include <glissade/contact/spring.h>
 #include <glissade/reference/sliding_method.h>
+#include <glissade/viewer/view_simulation.h>
 
 namespace glissade::apps {
 
@@ -24,7 +25,7 @@ void SlideReplay::add(std::chrono::nanoseconds time, const reference::SlidingSim
   devices::HapticState state;
   state.sequence = ++ticks_;
   state.time = time;
-  show_part(sliding.result(), sliding.part().p_Vref(), 0, patches_, state);
+  viewer::show_part(sliding.result(), sliding.part().p_Vref(), 0, patches_, state);
   for (const Eigen::Isometry3d& X_WB : sliding.scripted_X_WB()) {
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;

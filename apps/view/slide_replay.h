@@ -10,6 +10,7 @@
 #include <glissade/apps/scene/haptic_scene.h>
 #include <glissade/apps/view/part_curves.h>
 #include <glissade/apps/view/replay_maker.h>
+#include <glissade/contact/tracked_contacts.h>
 #include <glissade/reference/sliding_method.h>
 
 namespace glissade::apps {

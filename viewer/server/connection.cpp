@@ -18,11 +18,13 @@ constexpr std::chrono::seconds kPatienceForRequest{5};
 constexpr std::chrono::seconds kPatienceForReader{60};  // of an answer, which may be a large model
 constexpr std::size_t kLongestHeader = 16'384;
 
-/// The page is one file and talks to its own server only: `host` is its name with the port.
+/// The page is one file and talks to its own server only: `host` is its name with the port. Pages of this machine, such
+/// as notebooks, may frame it.
 std::string policy_for(std::string_view host) {
   return "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:; "
          "connect-src 'self' ws://" +
-         std::string(host) + " blob: data:; frame-ancestors 'none'; base-uri 'none'; form-action 'none'";
+         std::string(host) +
+         " blob: data:; frame-ancestors http://localhost:* http://127.0.0.1:*; base-uri 'none'; form-action 'none'";
 }
 
 std::string_view view_of(beast::string_view text) {
