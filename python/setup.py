@@ -26,7 +26,7 @@ class BuildByCMake(build_ext):
 setup(
     name="glissade",
     version=re.search(r"VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text().split("project(", 1)[1])[1],
-    description="Exact collision of triangle soups, sliding contact and grasping hands",
+    description="Exact collision of triangle soups, sliding contact, grasping hands, and forces for gloves",
     python_requires=">=3.9",
     install_requires=["numpy"],
     packages=["glissade"],

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include <glissade/files/pose_rules.h>
 #include <glissade/files/text.h>
@@ -143,6 +144,35 @@ Eigen::Vector3d vector_from(const py::object& argument, const std::string& name)
 
 py::array_t<double> to_array(const Eigen::Vector3d& vector) {
   return py::array_t<double>(3, vector.data());
+}
+
+std::chrono::nanoseconds nanoseconds_from(double time_s, const std::string& name) {
+  if (!(std::abs(time_s) <= 1e9)) throw std::invalid_argument(name + " is beyond 1e9 s");
+  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s));
+}
+
+geometry::PoseTrajectory trajectory_from(const py::object& times_s, const std::string& name_of_times,
+                                         const py::object& poses, const std::string& name_of_poses) {
+  const Numbers times = numbers_from(times_s, name_of_times);
+  const Poses X = poses_from(poses, name_of_poses);
+  if (times.ndim() != 1 || X.shape.size() != 1 || times.shape(0) != X.shape[0])
+    throw std::invalid_argument(name_of_times + " and " + name_of_poses + " must be n times (seconds) and n poses");
+  std::vector<geometry::TimedPose> rows;
+  for (std::size_t i = 0; i < X.X.size(); ++i) {
+    const std::string name = name_of_times + "[" + std::to_string(i) + "]";
+    rows.push_back({nanoseconds_from(times.at(static_cast<py::ssize_t>(i)), name), X.X[i]});
+  }
+  return geometry::PoseTrajectory(std::move(rows));
+}
+
+hands::JointValues joints_from(const py::object& argument, const std::string& name) {
+  const Numbers values = numbers_from(argument, name);
+  if (values.ndim() != 1 || values.shape(0) != hands::kJoints)
+    throw std::invalid_argument(name + " must have the shape (22,), in the order of JOINT_NAMES");
+  check_finite(values, name);
+  hands::JointValues joints;
+  std::copy_n(values.data(), joints.size(), joints.begin());
+  return joints;
 }
 
 }  // namespace glissade::python

@@ -4,6 +4,7 @@
 /// something that is no array of real numbers, and std::invalid_argument for a wrong shape or value. The message begins
 /// with the name of the argument.
 
+#include <chrono>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -12,6 +13,9 @@
 #include <Eigen/Geometry>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
+
+#include <glissade/geometry/pose_trajectory.h>
+#include <glissade/hands/hand.h>
 
 namespace glissade::python {
 
@@ -48,6 +52,16 @@ py::array_t<double> to_array(const Eigen::Isometry3d& pose);
 /// A point or vector of three numbers.
 Eigen::Vector3d vector_from(const py::object& argument, const std::string& name);
 py::array_t<double> to_array(const Eigen::Vector3d& vector);
+
+/// A time of at most 1e9 s.
+std::chrono::nanoseconds nanoseconds_from(double time_s, const std::string& name);
+
+/// One row of a motion for each time (n,) in seconds and pose.
+geometry::PoseTrajectory trajectory_from(const py::object& times_s, const std::string& name_of_times,
+                                         const py::object& poses, const std::string& name_of_poses);
+
+/// One number for each joint of a hand, in the order of hands::kJointNames.
+hands::JointValues joints_from(const py::object& argument, const std::string& name);
 
 /// An array of this shape without values.
 template <typename Number>

@@ -27,11 +27,8 @@ HandShape hand_shape(double length_m, double breadth_m, const std::string& side)
 Posture posture(const py::object& X_WR, const py::object& angles) {
   Posture posture{.X_WR = pose_from(X_WR, "X_WR"), .values = std::vector<double>(hands::kJoints, 0.0)};
   if (angles.is_none()) return posture;
-  const Numbers values = numbers_from(angles, "angles");
-  if (values.ndim() != 1 || values.shape(0) != hands::kJoints)
-    throw std::invalid_argument("angles must have the shape (22,), in the order of JOINT_NAMES");
-  check_finite(values, "angles");
-  posture.values.assign(values.data(), values.data() + values.size());
+  const hands::JointValues values = joints_from(angles, "angles");
+  posture.values.assign(values.begin(), values.end());
   return posture;
 }
 

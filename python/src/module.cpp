@@ -1,5 +1,6 @@
 #include "module.h"
 
+#include <cstddef>
 #include <exception>
 #include <stdexcept>
 #include <string_view>
@@ -20,6 +21,18 @@ void translate(std::exception_ptr exception) {
   }
 }
 
+/// pybind11 would make memory without a value for an object whose class has only been asked for `__new__`.
+void* refuse_without_init(std::size_t /*size*/) {
+  throw pybind11::type_error("__init__() of this object was never called");
+}
+
+void refuse_objects_without_init(const pybind11::module_& module) {
+  for (const auto& [name, object] : pybind11::dict(module.attr("__dict__"))) {
+    if (PyType_Check(object.ptr()) == 0) continue;
+    pybind11::detail::get_type_info(reinterpret_cast<PyTypeObject*>(object.ptr()))->operator_new = &refuse_without_init;
+  }
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_glissade, module) {
@@ -34,4 +47,11 @@ PYBIND11_MODULE(_glissade, module) {
   glissade::python::add_hands(module);
   glissade::python::add_scene(module);
   glissade::python::add_simulation(module);
+  glissade::python::add_running();
+  glissade::python::add_gloves(module);
+  glissade::python::add_frame(module);
+  glissade::python::add_server(module);
+  glissade::python::add_recording(module);
+  glissade::python::add_view(module);
+  refuse_objects_without_init(module);
 }

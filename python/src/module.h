@@ -12,5 +12,12 @@ void add_pipeline(pybind11::module_& module);
 void add_hands(pybind11::module_& module);
 void add_scene(pybind11::module_& module);
 void add_simulation(pybind11::module_& module);
+void add_running();
+void add_gloves(pybind11::module_& module);
+void add_relay_glove(pybind11::module_& module);
+void add_frame(pybind11::module_& module);
+void add_server(pybind11::module_& module);
+void add_recording(pybind11::module_& module);
+void add_view(pybind11::module_& module);
 
 }  // namespace glissade::python

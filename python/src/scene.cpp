@@ -1,5 +1,3 @@
-#include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
@@ -25,24 +23,10 @@ using simulation::SceneMesh;
 using simulation::SceneMotion;
 using simulation::SceneObject;
 
-std::chrono::nanoseconds nanoseconds_from(double time_s, const std::string& name) {
-  if (!(std::abs(time_s) <= 1e9)) throw std::invalid_argument(name + " is beyond 1e9 s");
-  return std::chrono::round<std::chrono::nanoseconds>(std::chrono::duration<double>(time_s));
-}
-
-geometry::PoseTrajectory trajectory_from(const py::object& motion) {
+geometry::PoseTrajectory motion_from(const py::object& motion) {
   if (!py::isinstance<py::sequence>(motion) || py::len(motion) != 2)
     throw py::type_error("motion must be the times and the poses");
-  const Numbers times_s = numbers_from(motion[py::int_(0)], "motion[0]");
-  const Poses poses = poses_from(motion[py::int_(1)], "motion[1]");
-  if (times_s.ndim() != 1 || poses.shape.size() != 1 || times_s.shape(0) != poses.shape[0])
-    throw std::invalid_argument("motion must be n times (seconds) and n poses");
-  std::vector<geometry::TimedPose> rows;
-  for (std::size_t i = 0; i < poses.X.size(); ++i) {
-    const auto time = nanoseconds_from(times_s.at(static_cast<py::ssize_t>(i)), "motion[0][" + std::to_string(i) + "]");
-    rows.push_back({time, poses.X[i]});
-  }
-  return geometry::PoseTrajectory(std::move(rows));
+  return trajectory_from(motion[py::int_(0)], "motion[0]", motion[py::int_(1)], "motion[1]");
 }
 
 void add_object(Scene& scene, const std::string& name, const SceneMesh& mesh, const py::object& X_WB, bool is_movable,
@@ -54,7 +38,7 @@ void add_object(Scene& scene, const std::string& name, const SceneMesh& mesh, co
   if (!motion.is_none()) {
     if (!X_WB.is_none() || is_movable)
       throw std::invalid_argument("an object with a motion begins at its first pose and is not movable");
-    object.motion = SceneMotion{trajectory_from(motion)};
+    object.motion = SceneMotion{motion_from(motion)};
     object.X_WB = object.motion->script_X_WB.rows().front().X_WB;
   }
   if (!compliance_point_B.is_none()) object.compliance_point_B = vector_from(compliance_point_B, "compliance_point_B");

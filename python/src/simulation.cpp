@@ -23,7 +23,7 @@ namespace {
 
 using contact::TrackedContact;
 using simulation::Scene;
-using simulation::Simulation;
+using Simulation = ShownSimulation;
 
 /// A contact for Python, with the name of the other body.
 struct NamedContact {

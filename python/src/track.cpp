@@ -19,7 +19,7 @@ namespace py = pybind11;
 
 namespace {
 
-using simulation::Simulation;
+using Simulation = ShownSimulation;
 
 /// The rows while they are collected, without Python objects.
 struct Rows {
