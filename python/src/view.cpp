@@ -39,17 +39,26 @@ constexpr std::chrono::milliseconds kFrame{16};
 class Feed {
  public:
   Feed(viewer::ViewScene scene, std::uint16_t port, Source source)
-      : server_(std::move(scene), port), source_(std::move(source)), thread_([this](const std::stop_token& stop) {
+      : server_(std::in_place, std::move(scene), port),
+        source_(std::move(source)),
+        thread_([this](const std::stop_token& stop) {
           while (!stop.stop_requested()) {
-            if (const std::optional<HapticState> state = source_(server_.has_had_client())) server_.push(*state);
+            if (const std::optional<HapticState> state = source_(server_->has_had_client())) server_->push(*state);
             std::this_thread::sleep_for(kFrame);
           }
         }) {}
 
-  std::string url() const { return server_.url(); }
+  std::string url() const { return server_->url(); }
+
+  /// Takes up to 0.3 s.
+  void stop() {
+    thread_.request_stop();
+    thread_.join();
+    server_.reset();
+  }
 
  private:
-  viewer::ViewServer server_;
+  std::optional<viewer::ViewServer> server_;
   Source source_;
   std::jthread thread_;
 };
@@ -63,7 +72,12 @@ class View final : public Running {
   const std::string& url() const noexcept { return url_; }
   bool is_open() const noexcept { return feed_ != nullptr; }
 
-  void end() noexcept override { feed_.reset(); }  // no longer than 0.3 s
+  void end() noexcept override {
+    const std::unique_ptr<Feed> feed = std::move(feed_);
+    if (feed == nullptr) return;
+    const Unlocked unlocked;  // until before the source dies, which may hold the last reference to a server
+    feed->stop();
+  }
   void abandon() noexcept override { static_cast<void>(feed_.release()); }
 
  private:
