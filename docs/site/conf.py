@@ -1,0 +1,29 @@
+# The manual: Sphinx over the pages as they lie in the tree, so that links between pages work here and on a forge.
+# scripts/site builds it.
+from pygments.lexers.special import TextLexer
+
+project = "Glissade"
+copyright = "the Glissade authors, BSD 3-Clause licence"
+extensions = ["myst_parser", "sphinx.ext.autodoc"]
+include_patterns = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELOG.md", "docs/*.md", "docs/tutorials/*.md",
+                    "docs/coming_from/*.md", "docs/site/*.rst"]
+root_doc = "docs/site/index"
+nitpicky = True
+# Types of NumPy and of arguments that stubs describe are no pages of this manual.
+nitpick_ignore_regex = [("py:.*", r"(numpy|array|object|list|tuple|bool|int|float|str|None|List|Optional|Tuple|Callable).*")]
+
+myst_heading_anchors = 4
+myst_enable_extensions = ["dollarmath"]
+
+html_theme = "furo"
+html_title = "Glissade"
+html_static_path = ["static"]
+html_extra_path = ["top"]
+html_css_files = ["manual.css"]
+html_copy_source = False
+html_show_sphinx = False
+html_show_search_summary = False  # it would need a server
+
+
+def setup(app):
+    app.add_lexer("csv", TextLexer)  # Pygments has none
