@@ -1,5 +1,7 @@
 # The manual: Sphinx over the pages as they lie in the tree, so that links between pages work here and on a forge.
 # scripts/site builds it.
+from pathlib import Path
+
 from pygments.lexers.special import TextLexer
 
 project = "Glissade"
@@ -25,5 +27,20 @@ html_show_sphinx = False
 html_show_search_summary = False  # it would need a server
 
 
+def make_self_contained(app, error):
+    """Debian's Furo needs a server: its style sheet is at the root of one, and its script imports another. A browser
+    loads neither from a file."""
+    if error:
+        return
+    static = Path(app.outdir) / "_static"
+    styles = static / "styles/furo.css"
+    normalize = Path("/usr/share/javascript/normalize.css/normalize.css").read_text()
+    styles.write_text(normalize + styles.read_text().replace("@import url(/javascript/normalize.css/normalize.css);", ""))
+    script = static / "scripts/furo.js"
+    menu = (static / "scripts/gumshoe-patched.js").read_text()
+    script.write_text(menu + script.read_text().replace('import Gumshoe from "./gumshoe-patched.js";', ""))
+
+
 def setup(app):
     app.add_lexer("csv", TextLexer)  # Pygments has none
+    app.connect("build-finished", make_self_contained)
