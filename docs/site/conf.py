@@ -1,5 +1,6 @@
 # The manual: Sphinx over the pages as they lie in the tree, so that links between pages work here and on a forge.
 # scripts/site builds it.
+import re
 from pathlib import Path
 
 from pygments.lexers.special import TextLexer
@@ -35,7 +36,11 @@ def make_self_contained(app, error):
     static = Path(app.outdir) / "_static"
     styles = static / "styles/furo.css"
     normalize = Path("/usr/share/javascript/normalize.css/normalize.css").read_text()
-    styles.write_text(normalize + styles.read_text().replace("@import url(/javascript/normalize.css/normalize.css);", ""))
+    rules = styles.read_text().replace("@import url(/javascript/normalize.css/normalize.css);", "")
+    # Its style sheet is dark at a click only, because Debian's compiler drops rules inside two conditions.
+    dark = re.search(r'body\[data-theme="dark"\] \{(.*?)\}', rules, re.DOTALL)[1]
+    rules += f'@media screen and (prefers-color-scheme: dark) {{ body:not([data-theme="light"]) {{{dark}}} }}\n'
+    styles.write_text(normalize + rules)
     script = static / "scripts/furo.js"
     menu = (static / "scripts/gumshoe-patched.js").read_text()
     script.write_text(menu + script.read_text().replace('import Gumshoe from "./gumshoe-patched.js";', ""))

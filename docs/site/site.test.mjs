@@ -27,6 +27,11 @@ test('every page fits, alone', async () => {
       page.on('requestfailed', (request) => wrong.push(`not found: ${request.url()}`));
       for (const name of pages) {
         await page.goto(new URL(name, SITE).href);
+        const isDark = await page.evaluate(() => {
+          const [red] = getComputedStyle(document.body).backgroundColor.match(/\d+/g);
+          return red < 128;
+        });
+        if (isDark !== (colorScheme === 'dark')) wrong.push(`${name} is ${isDark ? 'dark' : 'light'}`);
         const excess = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
         if (excess > 0) wrong.push(`${name} is ${excess} pixels too wide`);
         if (SHOWN.includes(name)) await page.screenshot({ path: `${SHOTS}${name.replaceAll('/', '_')}_${colorScheme}_${width}.png` });
