@@ -2,7 +2,7 @@
 
 Lengths are metres, angles radians, forces newtons. X_AB is the pose of frame B in frame A: a row x, y, z, qw, qx, qy, qz,
 or a matrix (4, 4). Arrays of n poses have the shape (n, 7) or (n, 4, 4). Wrong input raises ValueError or TypeError with a
-sentence that names it.
+sentence that names it. For example::
 
     import glissade
     box = glissade.Mesh.shape("box", size_x_m=0.1, size_y_m=0.06, size_z_m=0.04)
