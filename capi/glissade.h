@@ -1,7 +1,8 @@
 #ifndef GLISSADE_GLISSADE_H
 #define GLISSADE_GLISSADE_H
 
-/* Glissade in C: scenes, their simulation, and the haptic loop with gloves. C11; usable from C++ and, through P/Invoke,
+/** @file
+ * Glissade in C: scenes, their simulation, and the haptic loop with gloves. C11; usable from C++ and, through P/Invoke,
  * from C#. docs/c.md shows how a game engine uses it.
  *
  * Units are SI: metres, kilograms, seconds, newtons, radians; times are nanoseconds. The world W of scenes is
@@ -34,11 +35,11 @@ extern "C" {
 
 typedef enum GlissadeStatus {
   GLISSADE_OK = 0,
-  GLISSADE_INVALID = 1, /* an argument, a file or a handle is wrong: nothing has changed */
-  GLISSADE_FAILED = 2   /* a run has failed, or memory is used up */
+  GLISSADE_INVALID = 1, /**< an argument, a file or a handle is wrong: nothing has changed */
+  GLISSADE_FAILED = 2   /**< a run has failed, or memory is used up */
 } GlissadeStatus;
 
-/* A null handle has the id 0. */
+/** A null handle has the id 0. */
 typedef struct GlissadeScene {
   uint64_t id;
 } GlissadeScene;
@@ -57,18 +58,18 @@ typedef struct GlissadeServer {
 #define GLISSADE_MAX_HANDS 4
 #define GLISSADE_MAX_CONTACTS 24
 
-/* The pose X_AB of a frame B in a frame A, usually the world: position in metres, and unit quaternion. A quaternion
+/** The pose X_AB of a frame B in a frame A, usually the world: position in metres, and unit quaternion. A quaternion
  * whose length is off by more than 0.001 is an error. */
 typedef struct GlissadePose {
   double x, y, z;
   double qw, qx, qy, qz;
 } GlissadePose;
 
-/* The version of the library, such as "0.1.0". */
+/** The version of the library, such as "0.1.0". */
 GLISSADE_API const char* glissade_version(void);
-/* What went wrong in the last call of this thread that failed; empty if none has. Valid until the next failure. */
+/** What went wrong in the last call of this thread that failed; empty if none has. Valid until the next failure. */
 GLISSADE_API const char* glissade_last_error(void);
-/* The time of the haptic loop's clock, CLOCK_MONOTONIC. */
+/** The time of the haptic loop's clock, CLOCK_MONOTONIC. */
 GLISSADE_API int64_t glissade_now_ns(void);
 
 /* ---- Frames of game engines. Pure functions.
@@ -76,59 +77,60 @@ GLISSADE_API int64_t glissade_now_ns(void);
  * centimetres. The world W has x forwards, y to the left and z up. */
 typedef enum GlissadeEngine { GLISSADE_UNITY = 0, GLISSADE_UNREAL = 1 } GlissadeEngine;
 
-/* A pose of W as the frame of a GlissadeEngine, and back. Meshes must be converted by the same rule, each vertex as a
+/** A pose of W as the frame of a GlissadeEngine, and back. Meshes must be converted by the same rule, each vertex as a
  * position. */
 GLISSADE_API GlissadeStatus glissade_pose_to_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
 GLISSADE_API GlissadeStatus glissade_pose_from_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
-/* Turns the axes of a vector such as a force or a velocity, and does not scale it. For a torque or an angular velocity,
- * which change their sign in a mirror, take the negative of the result. */
+/** Turns the axes of a vector such as a force or a velocity, and does not scale it. For a torque or an angular
+ * velocity, which change their sign in a mirror, take the negative of the result. */
 GLISSADE_API GlissadeStatus glissade_vector_to_engine(int32_t engine, const double vector[3], double out[3]);
 GLISSADE_API GlissadeStatus glissade_vector_from_engine(int32_t engine, const double vector[3], double out[3]);
 
 /* ---- Scenes. Objects are numbered in the order in which they are added. */
 
 GLISSADE_API GlissadeStatus glissade_scene_new(GlissadeScene* scene);
-/* Reads a scene file (docs/scene_files.md) and the meshes that it names. */
+/** Reads a scene file (docs/scene_files.md) and the meshes that it names. */
 GLISSADE_API GlissadeStatus glissade_scene_read(const char* path, GlissadeScene* scene);
 GLISSADE_API GlissadeStatus glissade_scene_free(GlissadeScene scene);
 
-/* Adds an object that stands still at the pose X_WB; null is the identity. The mesh is in the object's frame B:
+/** Adds an object that stands still at the pose X_WB; null is the identity. The mesh is in the object's frame B:
  * vertices as x, y, z one after the other (metres), and three indices for each triangle. Each name is used once. */
 GLISSADE_API GlissadeStatus glissade_scene_add_mesh(GlissadeScene scene, const char* name, const double* vertices,
                                                     size_t vertex_count, const int32_t* triangles,
                                                     size_t triangle_count, const GlissadePose* X_WB);
-/* The mesh of a file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, such as 0.001 for millimetres. */
+/** The mesh of a file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, such as 0.001 for millimetres. */
 GLISSADE_API GlissadeStatus glissade_scene_add_file(GlissadeScene scene, const char* name, const char* path,
                                                     double scale, const GlissadePose* X_WB);
-/* A shape of the catalogue in docs/scene_files.md, such as "box". Parameters that are not given have their defaults. */
+/** A shape of the catalogue in docs/scene_files.md, such as "box". Parameters that are not given have their defaults.
+ */
 GLISSADE_API GlissadeStatus glissade_scene_add_shape(GlissadeScene scene, const char* name, const char* type,
                                                      const char* const* parameters, const double* values,
                                                      size_t parameter_count, const GlissadePose* X_WB);
-/* Of an object that has been added or read: hands can hold it (1) or not (0); its pose; the gap (metres, at most
+/** Of an object that has been added or read: hands can hold it (1) or not (0); its pose; the gap (metres, at most
  * 0.00025) at which it stops parts, if it is fixed. */
 GLISSADE_API GlissadeStatus glissade_scene_set_movable(GlissadeScene scene, const char* name, int is_movable);
 GLISSADE_API GlissadeStatus glissade_scene_set_pose(GlissadeScene scene, const char* name, const GlissadePose* X_WB);
 GLISSADE_API GlissadeStatus glissade_scene_set_margin(GlissadeScene scene, const char* name, double margin_m);
 
-/* Adds a hand with fingers, for gloves that measure them. Lengths are those of docs/grasping.md, 0 for a typical man's:
- * from the wrist to the tip of the middle finger, and across the knuckles. At most GLISSADE_MAX_HANDS. */
+/** Adds a hand with fingers, for gloves that measure them. Lengths are those of docs/grasping.md, 0 for a typical
+ * man's: from the wrist to the tip of the middle finger, and across the knuckles. At most GLISSADE_MAX_HANDS. */
 GLISSADE_API GlissadeStatus glissade_scene_add_hand(GlissadeScene scene, int is_left, double length_m,
                                                     double breadth_m);
-/* Coulomb friction of all contacts: at rest, and while sliding (at most as large). 0 and 0 turn it off. */
+/** Coulomb friction of all contacts: at rest, and while sliding (at most as large). 0 and 0 turn it off. */
 GLISSADE_API GlissadeStatus glissade_scene_set_friction(GlissadeScene scene, double at_rest, double sliding);
-/* Stiffness of the spring between ghost and part. Default: 1000 N/m. A device that renders less gets less. */
+/** Stiffness of the spring between ghost and part. Default: 1000 N/m. A device that renders less gets less. */
 GLISSADE_API GlissadeStatus glissade_scene_set_stiffness(GlissadeScene scene, double stiffness_N_per_m);
-/* Few steps, a search thread and a bounded work in each call: for scenes that a server runs. Keeps the friction. */
+/** Few steps, a search thread and a bounded work in each call: for scenes that a server runs. Keeps the friction. */
 GLISSADE_API GlissadeStatus glissade_scene_use_real_time_rules(GlissadeScene scene);
 
-/* An object for a renderer. The pointers stay valid until the scene is changed or freed. */
+/** An object for a renderer. The pointers stay valid until the scene is changed or freed. */
 typedef struct GlissadeObject {
   const char* name;
-  GlissadePose X_WB; /* at the start */
+  GlissadePose X_WB; /**< at the start */
   int32_t is_movable;
-  const double* vertices; /* 3 for each vertex, metres, in the frame B of the object */
+  const double* vertices; /**< 3 for each vertex, metres, in the frame B of the object */
   size_t vertex_count;
-  const int32_t* triangles; /* 3 for each triangle */
+  const int32_t* triangles; /**< 3 for each triangle */
   size_t triangle_count;
 } GlissadeObject;
 
@@ -141,176 +143,178 @@ GLISSADE_API GlissadeStatus glissade_scene_object(GlissadeScene scene, size_t ob
  * uses a simulation, only its numbers and names may be asked for. */
 
 typedef enum GlissadePartState {
-  GLISSADE_PART_UNKNOWN = 0,    /* not yet reported */
-  GLISSADE_PART_RELEASED = 1,   /* no hand holds the part, and it stands still */
-  GLISSADE_PART_FREE = 2,       /* at its ghost */
-  GLISSADE_PART_SLIDING = 3,    /* contacts push, and it moves along them */
-  GLISSADE_PART_RESTING = 4,    /* contacts push, and it stands still */
-  GLISSADE_PART_CATCHING_UP = 5 /* no contact pushes, but it is not at its ghost yet */
+  GLISSADE_PART_UNKNOWN = 0,    /**< not yet reported */
+  GLISSADE_PART_RELEASED = 1,   /**< no hand holds the part, and it stands still */
+  GLISSADE_PART_FREE = 2,       /**< at its ghost */
+  GLISSADE_PART_SLIDING = 3,    /**< contacts push, and it moves along them */
+  GLISSADE_PART_RESTING = 4,    /**< contacts push, and it stands still */
+  GLISSADE_PART_CATCHING_UP = 5 /**< no contact pushes, but it is not at its ghost yet */
 } GlissadePartState;
 
 typedef struct GlissadePart {
-  GlissadePose X_WV;     /* the visible part */
-  GlissadePose X_WG;     /* its ghost */
-  int32_t state;         /* GlissadePartState */
-  int32_t contact_count; /* contacts that push */
-  double force_N[3];     /* of the contacts on the hands that hold the part, in world axes */
-  double torque_Nm[3];   /* about the part's compliance point (default: the middle of its bounding box), world axes */
+  GlissadePose X_WV;     /**< the visible part */
+  GlissadePose X_WG;     /**< its ghost */
+  int32_t state;         /**< GlissadePartState */
+  int32_t contact_count; /**< contacts that push */
+  double force_N[3];     /**< of the contacts on the hands that hold the part, in world axes */
+  double torque_Nm[3];   /**< about the part's compliance point (default: the middle of its bounding box), world axes */
 } GlissadePart;
 
 typedef struct GlissadeContact {
-  int64_t id;        /* stays the same as long as the contact lasts, if contacts are asked for after each call */
-  int32_t body;      /* number of the other body, see glissade_simulation_body_name */
-  int32_t padding;   /* 0 */
-  double point_m[3]; /* on the part, in the world */
-  double normal[3];  /* unit vector from the other body to the part */
+  int64_t id;        /**< stays the same as long as the contact lasts, if contacts are asked for after each call */
+  int32_t body;      /**< number of the other body, see glissade_simulation_body_name */
+  int32_t padding;   /**< 0 */
+  double point_m[3]; /**< on the part, in the world */
+  double normal[3];  /**< unit vector from the other body to the part */
   double gap_m;
-  double force_N; /* along the normal; 0 if the contact does not push */
+  double force_N; /**< along the normal; 0 if the contact does not push */
 } GlissadeContact;
 
-/* The scene is copied, and may be changed or freed. Building its trees takes most of the time. */
+/** The scene is copied, and may be changed or freed. Building its trees takes most of the time. */
 GLISSADE_API GlissadeStatus glissade_simulation_new(GlissadeScene scene, GlissadeSimulation* simulation);
 GLISSADE_API GlissadeStatus glissade_simulation_free(GlissadeSimulation simulation);
-/* Moves each part towards its ghost for this time, usually 1 ms. `ghosts` has a pose for each part that hands can hold.
- * For scenes without hands. */
+/** Moves each part towards its ghost for this time, usually 1 ms. `ghosts` has a pose for each part that hands can
+ * hold. For scenes without hands. */
 GLISSADE_API GlissadeStatus glissade_simulation_advance(GlissadeSimulation simulation, const GlissadePose* ghosts,
                                                         size_t ghost_count, double milliseconds);
 GLISSADE_API GlissadeStatus glissade_simulation_part_count(GlissadeSimulation simulation, size_t* count);
-/* The number of the part with this name. */
+/** The number of the part with this name. */
 GLISSADE_API GlissadeStatus glissade_simulation_find_part(GlissadeSimulation simulation, const char* name,
                                                           size_t* part);
 GLISSADE_API GlissadeStatus glissade_simulation_part(GlissadeSimulation simulation, size_t part, GlissadePart* out);
-/* Writes the first `capacity` touching contacts of the part, and how many there are. */
+/** Writes the first `capacity` touching contacts of the part, and how many there are. */
 GLISSADE_API GlissadeStatus glissade_simulation_contacts(GlissadeSimulation simulation, size_t part,
                                                          GlissadeContact* contacts, size_t capacity, size_t* count);
-/* The distance (metres) from the part to the nearest other body. Costs one query for each body. */
+/** The distance (metres) from the part to the nearest other body. Costs one query for each body. */
 GLISSADE_API GlissadeStatus glissade_simulation_clearance(GlissadeSimulation simulation, size_t part,
                                                           double* clearance_m);
-/* Valid until the simulation and every server of it have been freed. */
+/** Valid until the simulation and every server of it have been freed. */
 GLISSADE_API GlissadeStatus glissade_simulation_body_name(GlissadeSimulation simulation, int32_t body,
                                                           const char** name);
 
 /* ---- Gloves. A glove is used by one server at a time. */
 
-/* What a device can do; see devices/glove_device.h. 0 means: exerts none, or not known. Required: max_stiffness_N_per_m
- * and max_rotational_stiffness_Nm_per_rad. */
+/** What a device can do; see devices/glove_device.h. 0 means: exerts none, or not known. Required:
+ * max_stiffness_N_per_m and max_rotational_stiffness_Nm_per_rad. */
 typedef struct GlissadeDevice {
   double max_force_N, max_torque_Nm, max_joint_torque_Nm;
-  double max_power_W;      /* that force and torque put into the hand; 50 by default */
-  double max_mean_force_N; /* over about ten seconds; 0: max_force_N */
-  double max_force_rate_N_per_s, max_torque_rate_Nm_per_s, max_joint_torque_rate_Nm_per_s; /* 0: the usual rates */
+  double max_power_W;      /**< that force and torque put into the hand; 50 by default */
+  double max_mean_force_N; /**< over about ten seconds; 0: max_force_N */
+  double max_force_rate_N_per_s, max_torque_rate_Nm_per_s, max_joint_torque_rate_Nm_per_s; /**< 0: the usual rates */
   double max_damping_Ns_per_m;
   double max_stiffness_N_per_m, max_rotational_stiffness_Nm_per_rad;
-  double damping_Ns_per_m, rotational_damping_Nms_per_rad, joint_damping_Nms_per_rad; /* of the bare device */
-  double friction_N, joint_friction_Nm;                                               /* of the bare device */
-  double resolution_m, joint_resolution_rad; /* steps or noise of what it measures */
-  double update_rate_Hz;                     /* calls of glissade_glove_command a second, 1 to 100000 */
-  double delay_s;                            /* from measurement to force, in addition to the period */
-  double frozen_s;                           /* longest time with the same bits of a pose; 0: not checked */
-  double max_speed_m_per_s, max_turn_rate_rad_per_s, workspace_radius_m;     /* beyond: an error of the tracker */
-  double joint_lower_rad[GLISSADE_JOINTS], joint_upper_rad[GLISSADE_JOINTS]; /* both 0: there is no such joint */
+  double damping_Ns_per_m, rotational_damping_Nms_per_rad, joint_damping_Nms_per_rad; /**< of the bare device */
+  double friction_N, joint_friction_Nm;                                               /**< of the bare device */
+  double resolution_m, joint_resolution_rad; /**< steps or noise of what it measures */
+  double update_rate_Hz;                     /**< calls of glissade_glove_command a second, 1 to 100000 */
+  double delay_s;                            /**< from measurement to force, in addition to the period */
+  double frozen_s;                           /**< longest time with the same bits of a pose; 0: not checked */
+  double max_speed_m_per_s, max_turn_rate_rad_per_s, workspace_radius_m;     /**< beyond: an error of the tracker */
+  double joint_lower_rad[GLISSADE_JOINTS], joint_upper_rad[GLISSADE_JOINTS]; /**< both 0: there is no such joint */
 } GlissadeDevice;
 
-/* A device without force at 1000 Hz, with the usual limits of a tracker. */
+/** A device without force at 1000 Hz, with the usual limits of a tracker. */
 GLISSADE_API GlissadeStatus glissade_device_default(GlissadeDevice* device);
 
 typedef struct GlissadeGloveState {
-  int64_t time_ns;   /* of the measurement, on any monotonic clock, such as glissade_now_ns */
-  GlissadePose X_WH; /* of the hand root */
-  double velocity_m_per_s[3], angular_velocity_rad_per_s[3]; /* of the hand root, in world axes */
+  int64_t time_ns;   /**< of the measurement, on any monotonic clock, such as glissade_now_ns */
+  GlissadePose X_WH; /**< of the hand root */
+  double velocity_m_per_s[3], angular_velocity_rad_per_s[3]; /**< of the hand root, in world axes */
   double joint_angles_rad[GLISSADE_JOINTS];
-  int64_t grip;       /* how often the hand has closed or opened: odd while it is closed */
-  int32_t is_enabled; /* 0: the wearer does not hold the enable switch, so there is no force */
-  int32_t padding;    /* 0 */
+  int64_t grip;       /**< how often the hand has closed or opened: odd while it is closed */
+  int32_t is_enabled; /**< 0: the wearer does not hold the enable switch, so there is no force */
+  int32_t padding;    /**< 0 */
 } GlissadeGloveState;
 
-/* A closed hand at the origin that is enabled. */
+/** A closed hand at the origin that is enabled. */
 GLISSADE_API GlissadeStatus glissade_glove_state_default(GlissadeGloveState* state);
 
 typedef struct GlissadeGloveCommand {
-  double force_N[3];   /* on the hand at the hand root, in world axes */
-  double torque_Nm[3]; /* about the hand root, in world axes */
+  double force_N[3];   /**< on the hand at the hand root, in world axes */
+  double torque_Nm[3]; /**< about the hand root, in world axes */
   double joint_torques_Nm[GLISSADE_JOINTS];
-  int32_t reasons; /* why it is less than wanted, see glissade_reason_text */
-  int32_t padding; /* 0 */
-  int64_t age_ns;  /* time since the measurement of the state that it answers */
+  int32_t reasons; /**< why it is less than wanted, see glissade_reason_text */
+  int32_t padding; /**< 0 */
+  int64_t age_ns;  /**< time since the measurement of the state that it answers */
 } GlissadeGloveCommand;
 
-/* A glove whose driver is the caller. `name` is for messages. */
+/** A glove whose driver is the caller. `name` is for messages. */
 GLISSADE_API GlissadeStatus glissade_glove_new(const char* name, const GlissadeDevice* device, GlissadeGlove* glove);
-/* A simulated glove and its wearer, in a thread of its own. The hand follows the poses X_WH at `times_s` (ascending),
+/** A simulated glove and its wearer, in a thread of its own. The hand follows the poses X_WH at `times_s` (ascending),
  * and yields to the force. It waits at the first pose until a server runs. 20 N, 1 Nm, 1000 Hz. */
 GLISSADE_API GlissadeStatus glissade_glove_new_simulated(const double* times_s, const GlissadePose* X_WH, size_t count,
                                                          GlissadeGlove* glove);
 GLISSADE_API GlissadeStatus glissade_glove_free(GlissadeGlove glove);
-/* Driver: the newest state. Call it once for each measurement. */
+/** Driver: the newest state. Call it once for each measurement. */
 GLISSADE_API GlissadeStatus glissade_glove_put(GlissadeGlove glove, const GlissadeGloveState* state);
-/* Driver: what the device must exert now. Call it once a period, after glissade_glove_put. The force fades to zero if
+/** Driver: what the device must exert now. Call it once a period, after glissade_glove_put. The force fades to zero if
  * states stop, or if the server is late, stops or ends; so it never lasts. If the driver itself halts, only the
  * device's watchdog lets go (docs/safety.md). */
 GLISSADE_API GlissadeStatus glissade_glove_command(GlissadeGlove glove, GlissadeGloveCommand* command);
-/* Writes the most serious of the reasons as a sentence, cut to `capacity` bytes with the final 0; "" without reason. */
+/** Writes the most serious of the reasons as a sentence, cut to `capacity` bytes with the final 0; "" without reason.
+ */
 GLISSADE_API GlissadeStatus glissade_reason_text(int32_t reasons, int64_t age_ns, char* text, size_t capacity);
 
 /* ---- The haptic loop: forces at 1000 Hz in one thread, the simulation in another. */
 
 typedef struct GlissadeHandFrame {
-  int32_t part;                    /* number of the part that the hand holds, or -1 */
-  int32_t reasons;                 /* why the loop sent less than the contacts demand, see glissade_reason_text */
-  int32_t glove_reasons, padding;  /* why the glove exerts less than the loop sent */
-  double force_N[3], torque_Nm[3]; /* that the loop sent, in world axes; the torque about the origin of the held part */
-  double energy_J;                 /* that force and torque may still give to the hand */
-  /* Of a hand with fingers: the visible hand, which enters no object. */
+  int32_t part;                   /**< number of the part that the hand holds, or -1 */
+  int32_t reasons;                /**< why the loop sent less than the contacts demand, see glissade_reason_text */
+  int32_t glove_reasons, padding; /**< why the glove exerts less than the loop sent */
+  double force_N[3],
+      torque_Nm[3]; /**< that the loop sent, in world axes; the torque about the origin of the held part */
+  double energy_J;  /**< that force and torque may still give to the hand */
+  /** Of a hand with fingers: the visible hand, which enters no object. */
   GlissadePose X_WH;
   double joint_angles_rad[GLISSADE_JOINTS];
-  int32_t activity; /* 0: no fingers, 1: lost, 2: waits inside an object, 3: free, 4: holds */
-  int32_t grasp;    /* 0: none, 1: push, 2: precision, 3: power */
+  int32_t activity; /**< 0: no fingers, 1: lost, 2: waits inside an object, 3: free, 4: holds */
+  int32_t grasp;    /**< 0: none, 1: push, 2: precision, 3: power */
 } GlissadeHandFrame;
 
 typedef struct GlissadePartFrame {
   GlissadePose X_WV, X_WG;
-  int32_t state; /* GlissadePartState */
+  int32_t state; /**< GlissadePartState */
   int32_t contact_count;
 } GlissadePartFrame;
 
 typedef struct GlissadeFrameContact {
   int32_t part, padding;
-  double point_m[3], normal[3]; /* in the world; from the obstacle to the part */
+  double point_m[3], normal[3]; /**< in the world; from the obstacle to the part */
 } GlissadeFrameContact;
 
-/* The state after one tick of the haptic thread. All of it is of the same tick. */
+/** The state after one tick of the haptic thread. All of it is of the same tick. */
 typedef struct GlissadeFrame {
-  int64_t tick;    /* 0 before the first one */
-  int64_t time_ns; /* on the clock of glissade_now_ns */
+  int64_t tick;    /**< 0 before the first one */
+  int64_t time_ns; /**< on the clock of glissade_now_ns */
   int32_t part_count, hand_count, contact_count, padding;
   GlissadePartFrame parts[GLISSADE_MAX_PARTS];
   GlissadeHandFrame hands[GLISSADE_MAX_HANDS];
-  GlissadeFrameContact contacts[GLISSADE_MAX_CONTACTS]; /* that push */
+  GlissadeFrameContact contacts[GLISSADE_MAX_CONTACTS]; /**< that push */
 } GlissadeFrame;
 
 typedef struct GlissadeStatistics {
-  int64_t ticks, late_ticks; /* late: by a period or more */
+  int64_t ticks, late_ticks; /**< late: by a period or more */
   int32_t has_real_time_priority, has_locked_memory;
 } GlissadeStatistics;
 
-/* Starts the loop with these gloves: first those of the scene's hands. A hand without fingers takes the first part when
- * its glove is closed at the start; later, its grip decides. Use glissade_scene_use_real_time_rules. */
+/** Starts the loop with these gloves: first those of the scene's hands. A hand without fingers takes the first part
+ * when its glove is closed at the start; later, its grip decides. Use glissade_scene_use_real_time_rules. */
 GLISSADE_API GlissadeStatus glissade_server_start(GlissadeSimulation simulation, const GlissadeGlove* gloves,
                                                   size_t glove_count, GlissadeServer* server);
-/* Lets the forces fade, and ends the loop; may take some ticks. The gloves and the simulation are free again. */
+/** Lets the forces fade, and ends the loop; may take some ticks. The gloves and the simulation are free again. */
 GLISSADE_API GlissadeStatus glissade_server_stop(GlissadeServer server);
-/* Stops it before, if it runs. */
+/** Stops it before, if it runs. */
 GLISSADE_API GlissadeStatus glissade_server_free(GlissadeServer server);
-/* GLISSADE_FAILED, with the reason as the last error, if the loop has failed. Then the forces have faded. */
+/** GLISSADE_FAILED, with the reason as the last error, if the loop has failed. Then the forces have faded. */
 GLISSADE_API GlissadeStatus glissade_server_check(GlissadeServer server);
-/* The newest frame, for a renderer at its own rate. Never waits for the loop. Frames end when the loop fails, see
+/** The newest frame, for a renderer at its own rate. Never waits for the loop. Frames end when the loop fails, see
  * glissade_server_check. After glissade_server_stop, the last frame shows no force. */
 GLISSADE_API GlissadeStatus glissade_server_frame(GlissadeServer server, GlissadeFrame* frame);
 GLISSADE_API GlissadeStatus glissade_server_statistics(GlissadeServer server, GlissadeStatistics* statistics);
-/* The hand takes this part, or lets go of its part, in the next tick. For hands without fingers. */
+/** The hand takes this part, or lets go of its part, in the next tick. For hands without fingers. */
 GLISSADE_API GlissadeStatus glissade_server_grasp(GlissadeServer server, size_t hand, size_t part);
 GLISSADE_API GlissadeStatus glissade_server_release(GlissadeServer server, size_t hand);
-/* All forces fade to zero and stay there; the loop goes on. */
+/** All forces fade to zero and stay there; the loop goes on. */
 GLISSADE_API GlissadeStatus glissade_server_emergency_stop(GlissadeServer server);
 
 #ifdef __cplusplus
