@@ -28,7 +28,7 @@ class Tracker {
     constexpr nanoseconds kPeriod = std::chrono::nanoseconds(std::chrono::seconds(1)) / 90;
     if (time < pose_.sequence * kPeriod) return;
     const geometry::FrameVelocity velocity = X_WT_.velocity_at(script_time);
-    pose_.time = clock_.now();
+    pose_.time = start_ + time;  // after a stall, poses that come together are of different times
     pose_.X_WT = X_WT_.pose_at(script_time);
     pose_.has_velocity = true;
     pose_.v_WT = velocity.v_WB;
@@ -40,7 +40,7 @@ class Tracker {
  private:
   devices::HandPosePublisher publisher_;
   geometry::PoseTrajectory X_WT_;
-  realtime::SteadyClock clock_;
+  nanoseconds start_ = realtime::SteadyClock().now();
   devices::TrackedPose pose_;
 };
 

@@ -157,7 +157,7 @@ void add_relay_glove(py::module_& module) {
            R"(Describes the device.
 
 limits: what it can do, in SI units: max_force_N, max_torque_Nm, max_joint_torque_Nm, max_stiffness_N_per_m,
-max_rotational_stiffness_Nm_per_rad, update_rate_Hz, ...; without them, the hand feels nothing. See docs/devices.md.
+max_rotational_stiffness_Nm_per_rad, update_rate_Hz, ... A server refuses a glove without stiffness. See docs/devices.md.
 joint_lower_rad, joint_upper_rad: (22,), both 0 for a joint that is not there. Raises ValueError for a wrong value,
 TypeError for an unknown name.)")
       .def("put", &put, py::arg("X_WH"), py::kw_only(), py::arg("v_WH") = py::none(), py::arg("w_WH") = py::none(),

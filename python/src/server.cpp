@@ -154,10 +154,15 @@ void warn(const char* sentence) {
 
 void start(Server& server) {
   server.start();
-  if (!server.loop().scheduling().is_fifo)
+  if (server.loop().scheduling().is_fifo) return;
+  try {
     warn(
         "SCHED_FIFO is not granted: any busy program can hold up the haptic thread for milliseconds. "
         "docs/real_time.md says how to get it");
+  } catch (const py::error_already_set&) {
+    server.stop();  // the warning is an error here, so nobody would stop the loop
+    throw;
+  }
 }
 
 void stop(Server& server) {

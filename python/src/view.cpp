@@ -181,7 +181,9 @@ std::shared_ptr<View> view_of(const py::object& of, const py::object& scene, std
 bool is_in_notebook() {
   const py::dict modules = py::module_::import("sys").attr("modules");
   if (!modules.contains("IPython")) return false;
-  const py::object shell = modules["IPython"].attr("get_ipython")();
+  const py::object get_shell = py::getattr(modules["IPython"], "get_ipython", py::none());
+  if (get_shell.is_none()) return false;  // half imported, or kept out
+  const py::object shell = get_shell();
   return std::string(py::str(py::type::of(shell).attr("__name__"))) == "ZMQInteractiveShell";
 }
 
