@@ -94,6 +94,7 @@ struct Rows {
   std::vector<ContactRow> contacts;
   std::vector<GloveRow> gloves;
   std::int32_t hand_count = 0;
+  std::int32_t part_count = 0;
   std::int64_t unreadable = 0;
   std::string damage;
 
@@ -126,6 +127,7 @@ void Rows::add(const haptics::TickRecord& tick) {
 
 void Rows::add(const devices::HapticState& state) {
   hand_count = std::max(hand_count, state.hand_count);
+  part_count = std::max(part_count, state.part_count);
   for (std::int32_t p = 0; p < state.part_count; ++p) {
     const devices::HapticPartState& part = state.parts[static_cast<std::size_t>(p)];
     PartRow& row = parts.emplace_back(PartRow{.t_s = seconds(state.time), .tick = state.sequence, .part = p});
@@ -271,7 +273,14 @@ Recording read_recording(const py::object& path) {
     warning += (warning.empty() ? file : "; " + file) + ": " + std::to_string(rows.unreadable) +
                " events cannot be read and are left out";
   if (!warning.empty() && PyErr_WarnEx(PyExc_UserWarning, warning.c_str(), 1) != 0) throw py::error_already_set();
-  return {file, ticks_of(rows), parts_of(rows), hands_of(rows), contacts_of(rows), gloves_of(rows), rows.hand_count};
+  return {file,
+          ticks_of(rows),
+          parts_of(rows),
+          hands_of(rows),
+          contacts_of(rows),
+          gloves_of(rows),
+          rows.hand_count,
+          rows.part_count};
 }
 
 }  // namespace

@@ -16,6 +16,7 @@ struct Recording {
   pybind11::array contacts;
   pybind11::array gloves;
   std::int32_t hand_count = 0;
+  std::int32_t part_count = 0;
 };
 
 }  // namespace glissade::python

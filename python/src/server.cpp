@@ -64,6 +64,7 @@ void Server::record_to(const std::string& file) {
 }
 
 void Server::stop() {
+  if (phase_ == Phase::kNew) return;
   if (phase_ == Phase::kRunning || phase_ == Phase::kEnding) {
     phase_ = Phase::kEnding;
     const Unlocked unlocked;  // a driver in Python goes on, so its device feels the force fade
@@ -90,6 +91,7 @@ void Server::end_loop() {
 void Server::end() noexcept {
   try {
     stop();
+    phase_ = Phase::kEnded;  // also of a server that never started
   } catch (const std::exception&) {
     // The program ends, or nobody holds the server: there is nobody to tell that the recording is not whole.
   }
@@ -177,6 +179,7 @@ devices::HapticState frame(Server& server) {
 
 void run_for(Server& server, double seconds) {
   if (!(seconds >= 0.0 && seconds <= 1e9)) throw std::invalid_argument("seconds must be from 0 to 1e9");
+  if (!server.is_running() && !server.has_ended()) throw std::runtime_error("the server has not started");
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   constexpr std::chrono::milliseconds kTurn{20};
   while (std::chrono::steady_clock::now() < end) {
@@ -234,7 +237,7 @@ void add_life(Type& type) {
 
 gloves: first those of the scene's hands. A hand without fingers takes the first part if its glove is closed at the start;
 later, its grip decides. The scene should have the rules of SlidingRules.real_time(). record: a file for an event log of
-all ticks. Raises ValueError for a scene that cannot be simulated, and for a wrong number of gloves.)");
+all ticks; the start overwrites it. Raises ValueError for a scene that cannot be simulated, and for a wrong number of gloves.)");
   type.def("start", &start, R"(Starts the loop, once; `with` does so too.
 
 Warns (RuntimeWarning) if the system does not grant real-time priority. Raises ValueError for a glove in use.)");

@@ -163,9 +163,13 @@ std::shared_ptr<View> view_of_recording(const Recording& recording, const py::ob
   if (!py::isinstance<simulation::Scene>(scene))
     throw py::type_error("a recording needs its scene: view(recording, scene)");
   const auto player = std::make_shared<Player>(recording.path);
-  const auto hands = static_cast<std::size_t>(recording.hand_count);
-  return open(shown(scene.cast<simulation::Scene>(), hands, true), port,
-              [player](bool is_watched) { return (*player)(is_watched); });
+  viewer::ViewScene view = shown(scene.cast<simulation::Scene>(), static_cast<std::size_t>(recording.hand_count), true);
+  const auto parts = std::count_if(view.objects.begin(), view.objects.end(),
+                                   [](const viewer::ViewObject& object) { return object.part.has_value(); });
+  if (parts != recording.part_count)
+    throw std::invalid_argument("the recording is of another scene: it has " + std::to_string(recording.part_count) +
+                                " parts, and this scene " + std::to_string(parts));
+  return open(std::move(view), port, [player](bool is_watched) { return (*player)(is_watched); });
 }
 
 std::shared_ptr<View> view_of(const py::object& of, const py::object& scene, std::uint16_t port) {

@@ -1,5 +1,6 @@
 """Programs end without abort or hang, whatever runs, and whatever becomes of its objects."""
 
+import os
 import pathlib
 import signal
 import subprocess
@@ -69,3 +70,23 @@ def test_a_program_ends(ending):
     expected = 0 if ending in WELL else -signal.SIGINT if ending.startswith("Ctrl-C") else 1
     assert ended.returncode == expected, ended.stderr
     assert "Fatal" not in ended.stderr and time.monotonic() - start < 30
+
+
+def test_a_start_whose_warning_is_an_error_leaves_no_loop():
+    """Without the right to real-time priority, which root gives up by setpriv."""
+    program = """
+import resource, warnings
+from conftest import *
+resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
+warnings.simplefilter("error")
+server = glissade.HapticServer(box_on_plate(), glissade.SimulatedGlove([0], [at(0, 0, 0)]))
+try:
+    server.start()
+except RuntimeWarning as warning:
+    assert "SCHED_FIFO is not granted" in str(warning)
+    print("runs" if server.is_running else "has ended")
+"""
+    without_rights = ["setpriv", "--bounding-set", "-sys_nice", "--inh-caps", "-sys_nice"] if os.geteuid() == 0 else []
+    ended = subprocess.run([*without_rights, sys.executable, "-c", program], cwd=pathlib.Path(__file__).parent,
+                           capture_output=True, text=True, timeout=60)
+    assert ended.stdout == "has ended\n", ended.stderr

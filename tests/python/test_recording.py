@@ -108,6 +108,11 @@ def test_a_file_that_cannot_be_written_is_named():
         server.start()
 
 
+def test_a_path_with_a_null_byte_is_no_path():
+    with pytest.raises(ValueError, match="null byte"):
+        glissade.read_recording("log\0")
+
+
 def test_a_track_is_the_recording_of_a_simulation(tmp_path):
     track = glissade.Simulation(box_on_plate()).follow(np.tile(at(0, 0, 0.017), (50, 1)))
     np.savez(tmp_path / "track.npz", X_WV=track.X_WV, f_W_N=track.f_W)

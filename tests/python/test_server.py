@@ -216,6 +216,9 @@ def test_a_server_starts_once_and_stops_as_often_as_one_likes():
     server = glissade.HapticServer(real_time_scene(), pressing_glove())
     with pytest.raises(RuntimeError, match="has not started"):
         server.statistics()
+    with pytest.raises(RuntimeError, match="has not started"):
+        server.run_for(0)
+    server.stop()
     server.start()
     with pytest.raises(RuntimeError, match="starts once"):
         server.start()

@@ -110,6 +110,9 @@ def test_a_recording_plays_once_with_its_scene(tmp_path):
             pass
     with pytest.raises(TypeError, match=r"needs its scene: view\(recording, scene\)"):
         glissade.view(recording)
+    scene.add("second", glissade.Mesh.shape("sphere", radius_m=0.01), at(1, 0, 0), movable=True)
+    with pytest.raises(ValueError, match="another scene: it has 1 parts, and this scene 2"):
+        glissade.view(recording, scene)
 
 
 def test_a_notebook_shows_a_frame_instead_of_a_browser(opened, monkeypatch):
@@ -120,6 +123,9 @@ def test_a_notebook_shows_a_frame_instead_of_a_browser(opened, monkeypatch):
     monkeypatch.setitem(sys.modules, "IPython", types.SimpleNamespace(get_ipython=lambda: None))
     with glissade.view(box_on_plate()) as view:
         assert opened == [view.url]
+    monkeypatch.setitem(sys.modules, "IPython", None)  # kept out
+    glissade.view(box_on_plate()).close()
+    assert len(opened) == 2
 
 
 def test_wait_returns_after_ctrl_c():
