@@ -40,8 +40,8 @@ GlissadePose turned(const GlissadePose& pose, const Eigen::Matrix3d& axes, doubl
   return {p.x(), p.y(), p.z(), pose.qw, axis.x(), axis.y(), axis.z()};
 }
 
-void turn(const double* vector, const Eigen::Matrix3d& axes, double* out) {
-  const Eigen::Vector3d turned = axes * vector_of(&at(vector, "vector"), "vector");
+void turn(const double* vector, const char* argument, const Eigen::Matrix3d& axes, double* out) {
+  const Eigen::Vector3d turned = axes * vector_of(&at(vector, argument), argument);
   Eigen::Map<Eigen::Vector3d>(&at(out, "out")) = turned;
 }
 
@@ -66,9 +66,17 @@ GlissadeStatus glissade_pose_from_engine(int32_t engine, const GlissadePose* pos
 }
 
 GlissadeStatus glissade_vector_to_engine(int32_t engine, const double vector[3], double out[3]) {
-  return call([&] { turn(vector, frame_of(engine).axes, out); });
+  return call([&] { turn(vector, "vector", frame_of(engine).axes, out); });
 }
 
 GlissadeStatus glissade_vector_from_engine(int32_t engine, const double vector[3], double out[3]) {
-  return call([&] { turn(vector, frame_of(engine).axes.transpose(), out); });
+  return call([&] { turn(vector, "vector", frame_of(engine).axes.transpose(), out); });
+}
+
+GlissadeStatus glissade_torque_to_engine(int32_t engine, const double torque[3], double out[3]) {
+  return call([&] { turn(torque, "torque", -frame_of(engine).axes, out); });
+}
+
+GlissadeStatus glissade_torque_from_engine(int32_t engine, const double torque[3], double out[3]) {
+  return call([&] { turn(torque, "torque", -frame_of(engine).axes.transpose(), out); });
 }

@@ -81,10 +81,12 @@ typedef enum GlissadeEngine { GLISSADE_UNITY = 0, GLISSADE_UNREAL = 1 } Glissade
  * position. */
 GLISSADE_API GlissadeStatus glissade_pose_to_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
 GLISSADE_API GlissadeStatus glissade_pose_from_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
-/** Turns the axes of a vector such as a force or a velocity, and does not scale it. For a torque or an angular
- * velocity, which change their sign in a mirror, take the negative of the result. */
+/** Turns the axes of a vector such as a force or a velocity, and does not scale it. */
 GLISSADE_API GlissadeStatus glissade_vector_to_engine(int32_t engine, const double vector[3], double out[3]);
 GLISSADE_API GlissadeStatus glissade_vector_from_engine(int32_t engine, const double vector[3], double out[3]);
+/** The same for a torque or an angular velocity: axial vectors, whose sign a mirror image changes. */
+GLISSADE_API GlissadeStatus glissade_torque_to_engine(int32_t engine, const double torque[3], double out[3]);
+GLISSADE_API GlissadeStatus glissade_torque_from_engine(int32_t engine, const double torque[3], double out[3]);
 
 /* ---- Scenes. Objects are numbered in the order in which they are added. */
 
@@ -194,6 +196,25 @@ GLISSADE_API GlissadeStatus glissade_simulation_body_name(GlissadeSimulation sim
 
 /* ---- Gloves. A glove is used by one server at a time. */
 
+/** Bits of `reasons`: why a force is less than the contacts demand. The first seven let the force fade to zero. */
+typedef enum GlissadeReason {
+  GLISSADE_REASON_STOPPED = 1 << 0,         /**< emergency stop, or the loop has ended */
+  GLISSADE_REASON_DISABLED = 1 << 1,        /**< the wearer does not hold the enable switch */
+  GLISSADE_REASON_REFUSED = 1 << 2,         /**< the glove refuses this server */
+  GLISSADE_REASON_NOT_FINITE = 1 << 3,      /**< a number is not finite */
+  GLISSADE_REASON_IMPLAUSIBLE = 1 << 4,     /**< a state contradicts the device or earlier states */
+  GLISSADE_REASON_STATE_OLD = 1 << 5,       /**< the newest state was measured too long ago */
+  GLISSADE_REASON_COMMAND_OLD = 1 << 6,     /**< the command answers an old state, or none */
+  GLISSADE_REASON_RETURNING = 1 << 7,       /**< the force returns softly after the start or a reason above */
+  GLISSADE_REASON_FORCE_LIMITED = 1 << 8,   /**< by max_force_N */
+  GLISSADE_REASON_TORQUE_LIMITED = 1 << 9,  /**< by max_torque_Nm */
+  GLISSADE_REASON_JOINTS_LIMITED = 1 << 10, /**< by max_joint_torque_Nm */
+  GLISSADE_REASON_RATE_LIMITED = 1 << 11,   /**< by the largest rates of force and torque */
+  GLISSADE_REASON_POWER_LIMITED = 1 << 12,  /**< by max_power_W */
+  GLISSADE_REASON_MEAN_LIMITED = 1 << 13,   /**< by max_mean_force_N */
+  GLISSADE_REASON_ENERGY_LIMITED = 1 << 14  /**< by the energy that is left, see docs/safety.md */
+} GlissadeReason;
+
 /** What a device can do; see devices/glove_device.h. 0 means: exerts none, or not known. Required:
  * max_stiffness_N_per_m and max_rotational_stiffness_Nm_per_rad. */
 typedef struct GlissadeDevice {
@@ -233,7 +254,7 @@ typedef struct GlissadeGloveCommand {
   double force_N[3];   /**< on the hand at the hand root, in world axes */
   double torque_Nm[3]; /**< about the hand root, in world axes */
   double joint_torques_Nm[GLISSADE_JOINTS];
-  int32_t reasons; /**< why it is less than wanted, see glissade_reason_text */
+  int32_t reasons; /**< why it is less than wanted: bits of GlissadeReason */
   int32_t padding; /**< 0 */
   int64_t age_ns;  /**< time since the measurement of the state that it answers */
 } GlissadeGloveCommand;
@@ -249,7 +270,7 @@ GLISSADE_API GlissadeStatus glissade_glove_free(GlissadeGlove glove);
 GLISSADE_API GlissadeStatus glissade_glove_put(GlissadeGlove glove, const GlissadeGloveState* state);
 /** Driver: what the device must exert now. Call it once a period, after glissade_glove_put. The force fades to zero if
  * states stop, or if the server is late, stops or ends; so it never lasts. If the driver itself halts, only the
- * device's watchdog lets go (docs/safety.md). */
+ * device's watchdog lets go (docs/safety.md). Of a simulated glove: what it exerts; any thread may ask. */
 GLISSADE_API GlissadeStatus glissade_glove_command(GlissadeGlove glove, GlissadeGloveCommand* command);
 /** Writes the most serious of the reasons as a sentence, cut to `capacity` bytes with the final 0; "" without reason.
  */
@@ -259,7 +280,7 @@ GLISSADE_API GlissadeStatus glissade_reason_text(int32_t reasons, int64_t age_ns
 
 typedef struct GlissadeHandFrame {
   int32_t part;                   /**< number of the part that the hand holds, or -1 */
-  int32_t reasons;                /**< why the loop sent less than the contacts demand, see glissade_reason_text */
+  int32_t reasons;                /**< why the loop sent less than the contacts demand: bits of GlissadeReason */
   int32_t glove_reasons, padding; /**< why the glove exerts less than the loop sent */
   double force_N[3],
       torque_Nm[3]; /**< that the loop sent, in world axes; the torque about the origin of the held part */

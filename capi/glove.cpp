@@ -1,6 +1,7 @@
 // Gloves of the C interface.
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdint>
@@ -23,6 +24,27 @@ namespace {
 using std::chrono::nanoseconds;
 
 constexpr std::int64_t kLatest_ns = std::numeric_limits<std::int64_t>::max() / 4;
+
+/// The header writes the bits of messages out.
+constexpr bool is_bit_of(GlissadeReason reason, bool devices::LimitReasons::*flag) {
+  return devices::kLimitReasons[static_cast<std::size_t>(std::countr_zero(static_cast<unsigned>(reason)))].flag == flag;
+}
+static_assert(is_bit_of(GLISSADE_REASON_STOPPED, &devices::LimitReasons::is_stopped));
+static_assert(is_bit_of(GLISSADE_REASON_DISABLED, &devices::LimitReasons::is_disabled));
+static_assert(is_bit_of(GLISSADE_REASON_REFUSED, &devices::LimitReasons::is_refused));
+static_assert(is_bit_of(GLISSADE_REASON_NOT_FINITE, &devices::LimitReasons::not_finite));
+static_assert(is_bit_of(GLISSADE_REASON_IMPLAUSIBLE, &devices::LimitReasons::is_implausible));
+static_assert(is_bit_of(GLISSADE_REASON_STATE_OLD, &devices::LimitReasons::is_state_old));
+static_assert(is_bit_of(GLISSADE_REASON_COMMAND_OLD, &devices::LimitReasons::is_command_old));
+static_assert(is_bit_of(GLISSADE_REASON_RETURNING, &devices::LimitReasons::is_returning));
+static_assert(is_bit_of(GLISSADE_REASON_FORCE_LIMITED, &devices::LimitReasons::force_limited));
+static_assert(is_bit_of(GLISSADE_REASON_TORQUE_LIMITED, &devices::LimitReasons::torque_limited));
+static_assert(is_bit_of(GLISSADE_REASON_JOINTS_LIMITED, &devices::LimitReasons::joints_limited));
+static_assert(is_bit_of(GLISSADE_REASON_RATE_LIMITED, &devices::LimitReasons::rate_limited));
+static_assert(is_bit_of(GLISSADE_REASON_POWER_LIMITED, &devices::LimitReasons::power_limited));
+static_assert(is_bit_of(GLISSADE_REASON_MEAN_LIMITED, &devices::LimitReasons::mean_limited));
+static_assert(is_bit_of(GLISSADE_REASON_ENERGY_LIMITED, &devices::LimitReasons::energy_limited));
+static_assert(devices::kLimitReasons.size() == 15);
 
 nanoseconds time_of(double seconds, const char* argument) {
   if (!(std::abs(seconds) < 1e9)) throw std::invalid_argument(std::string(argument) + " must be finite, below 1e9 s");
@@ -68,15 +90,6 @@ geometry::PoseTrajectory script_of(const double* times_s, const GlissadePose* X_
   for (std::size_t i = 0; i < count; ++i)
     rows.push_back({time_of(times_s[i], "times_s"), pose_of(X_WH[i], "X_WH")});
   return geometry::PoseTrajectory(std::move(rows));
-}
-
-/// A call of the driver of a glove.
-template <typename Work>
-GlissadeStatus with_driven_glove(GlissadeGlove handle, const Work& work) noexcept {
-  return call_with(gloves(), handle.id, [&](GloveObject& object) {
-    if (!object.relay) throw std::invalid_argument("the glove is simulated, so it drives itself");
-    work(*object.relay);
-  });
 }
 
 }  // namespace
@@ -131,7 +144,8 @@ GlissadeStatus glissade_glove_free(GlissadeGlove glove) {
 }
 
 GlissadeStatus glissade_glove_put(GlissadeGlove glove, const GlissadeGloveState* given) {
-  return with_driven_glove(glove, [&](devices::RelayGlove& relay) {
+  return call_with(gloves(), glove.id, [&](GloveObject& object) {
+    if (!object.relay) throw std::invalid_argument("the glove is simulated, so it drives itself");
     devices::GloveState state;
     // The envelope adds and subtracts times.
     if (at(given, "state").time_ns > kLatest_ns || given->time_ns < -kLatest_ns)
@@ -145,14 +159,15 @@ GlissadeStatus glissade_glove_put(GlissadeGlove glove, const GlissadeGloveState*
       throw std::invalid_argument("joint_angles_rad has a number that is not finite");
     state.grip = given->grip;
     state.is_enabled = given->is_enabled != 0;
-    relay.publish(state);
+    object.relay->publish(state);
   });
 }
 
 GlissadeStatus glissade_glove_command(GlissadeGlove glove, GlissadeGloveCommand* out) {
-  return with_driven_glove(glove, [&](devices::RelayGlove& relay) {
+  return call_with(gloves(), glove.id, [&](GloveObject& object) {
     at(out, "command");
-    const devices::SafeCommand command = relay.newest_command();
+    const devices::SafeCommand command =
+        object.relay ? object.relay->newest_command() : object.simulated->exerted.latest();
     *out = {};
     copy(command.values().f_H_W, out->force_N);
     copy(command.values().t_H_W, out->torque_Nm);

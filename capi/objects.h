@@ -15,6 +15,7 @@
 #include <glissade/devices/lcm_bus.h>
 #include <glissade/devices/lcm_glove.h>
 #include <glissade/devices/relay_glove.h>
+#include <glissade/devices/safety_envelope.h>
 #include <glissade/devices/simulated_glove_service.h>
 #include <glissade/haptics/haptic_server.h>
 #include <glissade/realtime/clock.h>
@@ -61,10 +62,16 @@ struct SimulationObject {
 /// A simulated glove with its link. Members are destroyed from the last to the first.
 struct SimulatedGloveObject {
   explicit SimulatedGloveObject(const geometry::PoseTrajectory& script)
-      : service(bus, devices::SimulatedGlove(script), clock), glove(bus, devices::simulated_glove_descriptor()) {}
+      : service(bus, devices::SimulatedGlove(script), clock, {},
+                [this](const devices::GloveState&, const devices::SafeCommand& command) {
+                  exerted.publish(command);
+                  return true;
+                }),
+        glove(bus, devices::simulated_glove_descriptor()) {}
 
   std::shared_ptr<devices::LcmBus> bus = std::make_shared<devices::LcmBus>("memq://");
   realtime::SteadyClock clock;
+  realtime::TripleBuffer<devices::SafeCommand> exerted;
   devices::SimulatedGloveService service;
   devices::LcmGlove glove;
 };

@@ -30,10 +30,11 @@ int main(void) {
 
   /* The loop runs beside this thread, at 1000 Hz. Here is a renderer of 60 frames a second. */
   GlissadeFrame frame;
+  GlissadeGloveCommand exerted;
   double greatest_N = 0.0;
   for (int i = 0; i < 120; ++i) {
-    if (glissade_server_frame(server, &frame)) return failed("a frame");
-    if (frame.hands[0].force_N[2] > greatest_N) greatest_N = frame.hands[0].force_N[2];
+    if (glissade_server_frame(server, &frame) || glissade_glove_command(glove, &exerted)) return failed("a frame");
+    if (exerted.force_N[2] > greatest_N) greatest_N = exerted.force_N[2];
     nanosleep(&(struct timespec){.tv_nsec = 16666667}, NULL);
   }
   if (glissade_server_check(server)) return failed("the loop");

@@ -10,6 +10,13 @@ public enum GlissadeEngine { Unity = 0, Unreal = 1 }
 
 public enum GlissadePartState { Unknown = 0, Released = 1, Free = 2, Sliding = 3, Resting = 4, CatchingUp = 5 }
 
+[Flags]
+public enum GlissadeReason {
+  Stopped = 1 << 0, Disabled = 1 << 1, Refused = 1 << 2, NotFinite = 1 << 3, Implausible = 1 << 4, StateOld = 1 << 5,
+  CommandOld = 1 << 6, Returning = 1 << 7, ForceLimited = 1 << 8, TorqueLimited = 1 << 9, JointsLimited = 1 << 10,
+  RateLimited = 1 << 11, PowerLimited = 1 << 12, MeanLimited = 1 << 13, EnergyLimited = 1 << 14
+}
+
 [StructLayout(LayoutKind.Sequential)] public struct GlissadeScene { public ulong id; }
 [StructLayout(LayoutKind.Sequential)] public struct GlissadeSimulation { public ulong id; }
 [StructLayout(LayoutKind.Sequential)] public struct GlissadeGlove { public ulong id; }
@@ -139,6 +146,12 @@ public static class Glissade {
       [Out] double[] @out);
   [DllImport(Library)]
   public static extern GlissadeStatus glissade_vector_from_engine(GlissadeEngine engine, double[] vector,
+      [Out] double[] @out);
+  [DllImport(Library)]
+  public static extern GlissadeStatus glissade_torque_to_engine(GlissadeEngine engine, double[] torque,
+      [Out] double[] @out);
+  [DllImport(Library)]
+  public static extern GlissadeStatus glissade_torque_from_engine(GlissadeEngine engine, double[] torque,
       [Out] double[] @out);
   [DllImport(Library)] public static extern GlissadeStatus glissade_scene_new(out GlissadeScene scene);
   [DllImport(Library)] public static extern GlissadeStatus glissade_scene_read(string path, out GlissadeScene scene);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include <glissade/glissade.h>
@@ -96,6 +97,22 @@ TEST(Engines, ForcesTurnAndKeepTheirSize) {
   ASSERT_EQ(glissade_vector_from_engine(GLISSADE_UNITY, out, back), GLISSADE_OK);
   for (int i = 0; i < 3; ++i)
     EXPECT_EQ(back[i], force_N[i]);
+}
+
+/// A torque is the cross product of a lever and a force. Left-handed frames use the same formula.
+TEST(Engines, ATorqueIsThatOfTheConvertedLeverAndForce) {
+  const double lever_m[3] = {0.1, -0.2, 0.3};
+  const double force_N[3] = {4, 5, 6};
+  const Eigen::Vector3d torque_Nm = Eigen::Vector3d(lever_m).cross(Eigen::Vector3d(force_N));
+  for (const GlissadeEngine engine : {GLISSADE_UNITY, GLISSADE_UNREAL}) {
+    Eigen::Vector3d lever_in_engine, force_in_engine, torque_in_engine, back;
+    ASSERT_EQ(glissade_vector_to_engine(engine, lever_m, lever_in_engine.data()), GLISSADE_OK);
+    ASSERT_EQ(glissade_vector_to_engine(engine, force_N, force_in_engine.data()), GLISSADE_OK);
+    ASSERT_EQ(glissade_torque_to_engine(engine, torque_Nm.data(), torque_in_engine.data()), GLISSADE_OK);
+    EXPECT_EQ(torque_in_engine, lever_in_engine.cross(force_in_engine));
+    ASSERT_EQ(glissade_torque_from_engine(engine, torque_in_engine.data(), back.data()), GLISSADE_OK);
+    EXPECT_EQ(back, torque_Nm);
+  }
 }
 
 }  // namespace

@@ -129,5 +129,29 @@ TEST_F(BoxOnPlate, AForceReachesTheDriverAndEndsWithTheLoop) {
   EXPECT_C(glissade_glove_free(glove));
 }
 
+TEST_F(BoxOnPlate, ASimulatedGloveTellsWhatItExerts) {
+  const double times_s[] = {0.0, 0.3};
+  const GlissadePose hand[] = {{.z = 0.1, .qw = 1.0}, {.z = 0.08, .qw = 1.0}};
+  GlissadeGlove glove{};
+  ASSERT_C(glissade_glove_new_simulated(times_s, hand, 2, &glove));
+  GlissadeServer server{};
+  ASSERT_C(glissade_server_start(simulation, &glove, 1, &server));
+  GlissadeGloveCommand command{};
+  const auto wait_until = [&](auto condition) {
+    for (int i = 0; i < 20'000 && !condition(); ++i) {
+      std::this_thread::sleep_for(milliseconds(1));
+      EXPECT_C(glissade_glove_command(glove, &command));
+    }
+  };
+  wait_until([&] { return command.force_N[2] > 1.0; });
+  EXPECT_GT(command.force_N[2], 1.0) << "upwards, from the plate";
+  ASSERT_C(glissade_server_stop(server));
+  wait_until([&] { return command.force_N[2] == 0.0; });
+  EXPECT_EQ(command.force_N[2], 0.0);
+  EXPECT_NE(command.reasons & (GLISSADE_REASON_STOPPED | GLISSADE_REASON_COMMAND_OLD), 0);
+  EXPECT_C(glissade_server_free(server));
+  EXPECT_C(glissade_glove_free(glove));
+}
+
 }  // namespace
 }  // namespace glissade

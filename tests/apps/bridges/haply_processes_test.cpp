@@ -162,6 +162,7 @@ TEST_F(HaplyProcesses, TheForceReturnsAfterTheDeviceIsPluggedInAndTheServiceIsSt
   ASSERT_TRUE(feels_the_contact()) << bridge->standard_error() << server->standard_error();
   device->unplug();
   EXPECT_LT(time_until_free(), milliseconds(100));
+  wait_for([&] { return bridge->standard_error().find("is it plugged in") != std::string::npos; });
   device->plug();
   EXPECT_TRUE(feels_the_contact()) << bridge->standard_error();
   device->stop_service();
