@@ -1,12 +1,9 @@
 // Answers of the library in C++, for the tests of the module for Python:
-//   python_answers queries POSES OUT    a small sphere beside a torus, at each pose X_AB: as 6 doubles, whether they
-//                                       intersect, their distance, the triangles of the closest points, and the
-//                                       median times (s) of all the first answers and of all the second
+//   python_answers queries POSES OUT    a small sphere beside a torus, at each pose X_AB: as 4 doubles, whether they
+//                                       intersect, their distance, and the triangles of the closest points
 //   python_answers slide GHOSTS OUT     a box on a plate follows each pose: X_WV, row by row, and the force on the hand
 // POSES and GHOSTS are matrices of 16 doubles, row by row.
 #include <algorithm>
-#include <array>
-#include <chrono>
 #include <cstddef>
 #include <fstream>
 #include <iterator>
@@ -44,40 +41,16 @@ class Output {
   std::ofstream file_;
 };
 
-/// The median of five runs.
-double seconds_of(const auto& work) {
-  std::array<double, 5> times;
-  for (double& time : times) {
-    const auto start = std::chrono::steady_clock::now();
-    work();
-    time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  }
-  std::ranges::sort(times);
-  return times[2];
-}
-
 void answer_queries(const std::vector<Eigen::Isometry3d>& X_AB, Output& out) {
   const collision::DopTree torus(std::make_shared<geometry::TriangleMesh>(geometry::make_torus(0.08, 0.03, 50'000)));
   const collision::DopTree sphere(std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(0.04, 50'000)));
   collision::QueryWorkspace workspace;
-  std::vector<char> meets(X_AB.size());
-  std::vector<collision::MeshDistance> distances(X_AB.size());
-  const double of_meets = seconds_of([&] {
-    for (std::size_t i = 0; i < X_AB.size(); ++i)
-      meets[i] = intersects(torus, sphere, X_AB[i], workspace);
-  });
-  const double of_distances = seconds_of([&] {
-    for (std::size_t i = 0; i < X_AB.size(); ++i)
-      distances[i] = distance(torus, sphere, X_AB[i], workspace);
-  });
-  for (std::size_t i = 0; i < X_AB.size(); ++i) {
-    const auto& nearest = distances[i].nearest;
-    out.put(meets[i]);
-    out.put(distances[i].distance);
-    out.put(nearest ? nearest->triangles.triangle_A : -1);
-    out.put(nearest ? nearest->triangles.triangle_B : -1);
-    out.put(of_meets);
-    out.put(of_distances);
+  for (const Eigen::Isometry3d& X : X_AB) {
+    out.put(intersects(torus, sphere, X, workspace));
+    const collision::MeshDistance answer = distance(torus, sphere, X, workspace);
+    out.put(answer.distance);
+    out.put(answer.nearest ? answer.nearest->triangles.triangle_A : -1);
+    out.put(answer.nearest ? answer.nearest->triangles.triangle_B : -1);
   }
 }
 

@@ -1,7 +1,6 @@
 """The same bits as the library in C++. GLISSADE_POSES is the number of random poses."""
 
 import os
-import time
 
 import numpy as np
 from conftest import answers_in_cpp, at, box_on_plate, random_poses
@@ -9,26 +8,14 @@ from conftest import answers_in_cpp, at, box_on_plate, random_poses
 import glissade
 
 
-def timed(work):
-    """The result, and the median time of five runs."""
-    times = []
-    for _ in range(5):
-        start = time.perf_counter()
-        result = work()
-        times.append(time.perf_counter() - start)
-    return result, sorted(times)[2]
-
-
 def test_queries_give_the_bits_of_the_library(torus, ball, tmp_path):
     poses = random_poses(int(os.environ.get("GLISSADE_POSES", 2000)), 0.15, seed=3)
     answers = answers_in_cpp("queries", poses, tmp_path)
-    meets, of_meets = timed(lambda: glissade.intersects(torus, ball, poses))
-    points, of_distances = timed(lambda: glissade.distance(torus, ball, poses))
+    meets = glissade.intersects(torus, ball, poses)
+    points = glissade.distance(torus, ball, poses)
     assert (meets == answers[:, 0]).all() and 0.1 < meets.mean() < 0.9
     assert points.distance.tobytes() == answers[:, 1].tobytes()
     assert (points.triangles == answers[:, 2:4]).all()
-    print(f"{len(poses)} poses: time in Python / in C++: intersects {of_meets / answers[0, 4]:.3f},",
-          f"distance {of_distances / answers[0, 5]:.3f}")
 
 
 def test_a_slide_gives_the_bits_of_the_library(tmp_path):
