@@ -97,8 +97,8 @@ class GLISSADE_EXPORT LcmBus::Subscription {
 /// The field that caused a message to be rejected.
 struct RefusedField {
   std::string_view name{};       ///< as in the message's type, or in `DeviceDescriptor`; empty: no field
-  int index = -1;                ///< in an array; −1: the field is none
-  double value = 0.0;            ///< in the message
+  int index = -1;                ///< index in the array; −1: the field is no array
+  double value = 0.0;            ///< value of the field in the message
   std::optional<double> wanted;  ///< the only value that is allowed, if there is only one
   bool is_norm = false;          ///< whether `value` is the norm of the array
 };
@@ -115,7 +115,7 @@ struct LinkStatistics {
   std::uint64_t other_sender = 0;     ///< messages of a sender that does not hold the lease
   std::uint64_t out_of_sequence = 0;  ///< messages whose sequence number does not rise, or rises too fast
   std::uint64_t lost = 0;             ///< sequence numbers that are missing between accepted messages
-  RefusedField first_wrong_size{};    ///< of the first message of each of these kinds
+  RefusedField first_wrong_size{};    ///< the field in the first message that was rejected for this reason
   RefusedField first_wrong_version{};
   RefusedField first_not_finite{};
   RefusedField first_out_of_range{};
