@@ -78,11 +78,11 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 /// time delays: a two-layer approach combining passivity and transparency, 2011.
 ///
 /// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy that they give. A rise of
-/// `supply`, times the exerted share of the wanted wrench, counts as energy that the hand has put in, up to the
-/// device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy above 0.1 J, and
-/// only the part that the wanted wrench does not need. So the force does not shrink. The rest of the request decays
-/// with a time constant of 1 s. `SafeCommand::taken` is the energy given up. After an interruption or a change of the
-/// sender, `taken` restarts at 0, and the difference from the earlier `supply` does not count.
+/// `supply`, times the exerted share of the wanted wrench, counts as energy that the hand has put in, at a rate of at
+/// most the device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy above 0.1
+/// J, and only the part that the wanted wrench does not need. So the force does not shrink. The rest of the request
+/// decays with a time constant of 1 s. `SafeCommand::taken` is the energy given up. After an interruption or a change
+/// of the sender, `taken` restarts at 0, and the difference from the earlier `supply` does not count.
 ///
 /// The delay that three of four commands do not exceed (`link_delay`) is subtracted from the age of each command. So a
 /// link delay does not make commands old if the whole round trip takes at most 150 ms. No command older than 150 ms
