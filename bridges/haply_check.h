@@ -1,6 +1,6 @@
 #pragma once
 
-/// What there is at Haply's Inverse Service, and what is wrong with it, in sentences for people.
+/// Lists the devices of Haply's Inverse Service, and checks one, in sentences for people.
 
 #include <functional>
 #include <string>

@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is wrong with the wire to an OpenGloves glove, in sentences for people.
+/// Checks the wire to an OpenGloves glove, and reports in sentences for people.
 
 #include <chrono>
 #include <functional>
