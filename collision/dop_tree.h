@@ -93,7 +93,7 @@ class GLISSADE_EXPORT DopTree {
   /// Fits all DOPs to the present vertices. Call this after moving vertices of the mesh. The vertex indices of
   /// triangles must be unchanged. Queries stay exact, but become slower if triangles below a node have moved apart.
   /// Allocates nothing. Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would
-  /// reject; the tree is then unchanged.
+  /// reject. The tree is then unchanged.
   void refit();
 
   const geometry::TriangleMesh& mesh() const { return *mesh_; }

@@ -149,7 +149,7 @@ struct HalfSpaces {
   std::size_t count = 0;              ///< rows in use
   double stiffness = 0.0;             ///< against translation of R, N/m
   double rotational_stiffness = 0.0;  ///< against rotation about R, Nm/rad
-  double damping = 0.0;               ///< N s/m; against rotation in the proportion of the two stiffnesses
+  double damping = 0.0;               ///< N s/m; against rotation: times rotational_stiffness / stiffness
   /// Largest size of the wrench about R, N. The size is √(f² + t² K / K_r), with the two stiffnesses K and K_r.
   double max_force = 0.0;
   double max_torque = 0.0;  ///< largest torque about the hand root, Nm; 0 for a device without torque

@@ -56,8 +56,8 @@ struct FingerWearerModel {
   /// Stiffness per grip, (Nm/rad)/Nm. Chosen so that a grip of 0.2 Nm makes a stiffness of about 0.5 Nm/rad.
   double stiffness_per_grip = 2.5;
   double grip = 0.2;              ///< torque of each joint by which a closed hand holds, Nm; about 2 N at a fingertip
-  double open_grip = 0.05;        ///< the same for an open hand, which moves its fingers against friction, Nm; chosen
-  double reflex_gain = 0.5;       ///< grip of the reflex over the load; chosen
+  double open_grip = 0.05;        ///< the same for an open hand, which moves its fingers against friction, Nm; assumed
+  double reflex_gain = 0.5;       ///< grip of the reflex over the load; assumed
   double short_latency = 0.0346;  ///< s, of the first half of the reflex (PubMed 12898103)
   double long_latency = 0.0598;   ///< s, of the second half (PubMed 12898103)
   /// Root mean square of the tremor of the intended angle, rad. It is about 0.1 mm at a fingertip. Measured tremors are

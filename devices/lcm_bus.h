@@ -7,7 +7,7 @@
 /// processes and hosts by UDP multicast. With `ttl=0`, as in `udpm://239.255.76.67:7667?ttl=0`, messages stay on this
 /// machine, and the bus receives only messages of this machine. With a greater ttl, the bus receives only messages that
 /// arrive on the interface to which this machine routes the multicast group. Other LCM programs (`lcm-logger`,
-/// `lcm-spy`) can join. The bus accepts only messages that arrive in one packet; it drops fragments.
+/// `lcm-spy`) can join. The bus accepts only messages that arrive in one packet, and drops fragments.
 
 #include <array>
 #include <cstdint>
@@ -72,8 +72,8 @@ class GLISSADE_EXPORT LcmBus {
   /// channel without subscribers is lost. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, if it is not
-  /// an unfragmented LCM message, or if it has no valid code for the bus's key. Any thread.
+  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, if it is a
+  /// fragment or no LCM message, or if it has no valid code for the bus's key. Any thread.
   std::uint64_t refused_packets() const noexcept;
 
  private:

@@ -97,8 +97,8 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 /// when they move against the hand is taken from the available energy.
 ///
 /// Force, torques and limits fade within seven periods and return within 200 ms. Both take longer if the rate in the
-/// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring
-/// them to zero within 15 periods, because the hand could draw energy from a force that falls too slowly. Not
+/// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their maximum rates
+/// bring them to zero within 15 periods, because the hand could draw energy from a force that falls too slowly. Not
 /// thread-safe. Real-time safe: no allocation, no lock, no system call.
 class GLISSADE_EXPORT SafetyEnvelope {
  public:

@@ -85,8 +85,8 @@ class GLISSADE_EXPORT SimulatedGlove {
   /// ms; or the times of the fingers do not ascend.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
-  /// A device of this model. The dampings of the arm, and those of the fingers if they have dynamics, are those of the
-  /// model instead of `parameters`. Throws what the other constructor throws, and what `validate` throws for the model.
+  /// A device of this model. The model, not `parameters`, determines the damping of the arm and, if the fingers have
+  /// dynamics, of the fingers. Throws what the other constructor throws, and what `validate` throws for the model.
   SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters,
                  const GloveModel& model);
 
