@@ -91,8 +91,8 @@ class DynamixelBusWire : public Wire {
 /// The wire to a hand. `bus` leads to the servos. `board` leads to the measuring board, and is null without measured
 /// joints. Throws what `validate` throws, and std::invalid_argument if a line is missing.
 ///
-/// Opening sets up each servo: its torque is off, then it holds a goal position with a cap of current (operating mode
-/// 5), and its bus watchdog runs. Settings in EEPROM are written only where they differ.
+/// Opening sets up each servo: turns its torque off, selects operating mode 5 (a goal position with a cap of current),
+/// and starts its bus watchdog. Settings in EEPROM are written only where they differ.
 ///
 /// A joint limit is held by the servo itself: the goal position is the limit, the cap of current its largest torque,
 /// and the gain its stiffness. A servo also pulls toward its goal. So the cap is 0 while the joint is more than the

@@ -17,7 +17,7 @@ namespace glissade::bridges {
 
 /// Faults of the service.
 struct HaplyFaults {
-  double garbage = 0.0;               ///< share of the answers that are another text
+  double garbage = 0.0;               ///< share of the answers that another text replaces
   double cut = 0.0;                   ///< share of the answers of which a part is lost
   std::chrono::nanoseconds delay{0};  ///< from a message to its answer
 };

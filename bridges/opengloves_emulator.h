@@ -37,7 +37,7 @@ struct EmulatedGlove {
   FingerValues curls{};
   std::uint64_t limit_lines = 0;     ///< lines with limits that were read
   std::uint64_t stopping_lines = 0;  ///< those of them that do not leave all fingers free
-  std::uint64_t other_lines = 0;     ///< other lines; the firmware ignores them, or does anything
+  std::uint64_t other_lines = 0;     ///< other lines; what the firmware does with them is undefined
   std::uint64_t lost_bytes = 0;      ///< bytes that found no room in the board's buffer
   std::ptrdiff_t waiting_lines = 0;  ///< lines that the firmware has not read yet
 };

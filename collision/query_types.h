@@ -149,7 +149,7 @@ class GLISSADE_EXPORT TriangleSelection {
 };
 
 /// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so that every
-/// pair is a selected pair. Therefore a query is restricted only if neither selection is null.
+/// pair is a selected pair. Therefore a query is restricted only if both selections are given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

@@ -323,8 +323,8 @@ GLISSADE_EXPORT double tool_lag(const DeviceDescriptor& descriptor, std::chrono:
 GLISSADE_EXPORT double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
 
 /// The largest stiffness (Nm/rad) of limits that the device can hold in its own loop. With the device's joint damping
-/// and friction, it is passive for a finger of up to 0.5 rad/s. A faster finger may gain energy. 0 if the device takes
-/// torques.
+/// and friction, this stiffness is passive for a finger of up to 0.5 rad/s. A faster finger may gain energy. 0 if the
+/// device takes torques.
 GLISSADE_EXPORT double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
 
 /// The largest damping (Nm s/rad) with which the device holds limits of this stiffness passively: the joint damping

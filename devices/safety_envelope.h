@@ -66,16 +66,16 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 /// after all limits. A command counts from the delay of the device on until the next command acts, for at most max(10
 /// ms, two periods). The available energy is 0.1 J at the start (for sampling errors), plus what the hand has put in,
 /// minus what it has got back. Its maximum is about 0.25 m times the largest force. Joint torques do not count. The
-/// wrench is a continuous function of energy and velocity. The remaining energy must suffice to reduce the wrench to
-/// zero as a spring does that the device renders passively (derivation: docs/safety.md). At the end of a contact, the
-/// energy falls to at most 0.1 J. If the energy is below 0.1 J, or below what the wanted wrench needs, it recovers: at
-/// 0.3 W without a contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All
-/// recovery draws on a budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the
-/// envelope at the glove's end limits the energy. With these rules, no delay and no error of the simulation can sustain
-/// a fast oscillation that pushes both ways and gives more than 60 mW. A hand at rest feels no jump. Source of the
-/// observer: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that
-/// shrink with the energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with
-/// time delays: a two-layer approach combining passivity and transparency, 2011.
+/// wrench is a continuous function of energy and velocity. The remaining energy must suffice for the wrench to fall to
+/// zero like that of a passive spring (derivation: docs/safety.md). At the end of a contact, the energy falls to at
+/// most 0.1 J. If the energy is below 0.1 J, or below what the wanted wrench needs, it recovers: at 0.3 W without a
+/// contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All recovery draws on a
+/// budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the envelope at the
+/// glove's end limits the energy. With these rules, no delay and no error of the simulation can sustain a fast
+/// oscillation that pushes both ways and gives more than 60 mW. A hand at rest feels no jump. Source of the observer:
+/// Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the
+/// energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a
+/// two-layer approach combining passivity and transparency, 2011.
 ///
 /// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy that they give. A rise of
 /// `supply`, times the exerted share of the wanted wrench, counts as energy that the hand has put in, at a rate of at
@@ -92,14 +92,14 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 /// the wrench moves while one of the two is at its maximum. The power limit scales force and torque by the same factor.
 ///
 /// Limits that the device holds by itself (`JointLimits`) tighten no faster than torques rise. When limits move against
-/// a finger, their springs gain at most 20 mJ, the energy that other limits have given up, and 5 mW (0.2 W while all
-/// fingers rest). Half-spaces (`HalfSpaces`) change no faster than force and torque. The energy that their springs gain
-/// when they move against the hand is taken from the available energy.
+/// a finger, their springs gain at most the sum of 20 mJ, the energy that other limits have given up, and 5 mW over
+/// time (0.2 W while all fingers rest). Half-spaces (`HalfSpaces`) change no faster than force and torque. The energy
+/// that their springs gain when they move against the hand is taken from the available energy.
 ///
-/// Force, torques and limits fade within seven periods and return within 200 ms. Both take longer if the rate in the
-/// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their maximum rates
-/// bring them to zero within 15 periods, because the hand could draw energy from a force that falls too slowly. Not
-/// thread-safe. Real-time safe: no allocation, no lock, no system call.
+/// Force, torques and limits fade within seven periods and return within 200 ms. Fade and return take longer if the
+/// rate in the descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their
+/// maximum rates bring them to zero within 15 periods, because the hand could draw energy from a force that falls too
+/// slowly. Not thread-safe. Real-time safe: no allocation, no lock, no system call.
 class GLISSADE_EXPORT SafetyEnvelope {
  public:
   /// States and commands older than `patience_periods` periods count as old. A period is the longer of the periods of

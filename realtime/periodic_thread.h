@@ -28,7 +28,7 @@ struct TimeShare {
   std::chrono::nanoseconds window{std::chrono::milliseconds(10)};
 };
 
-/// The parts of the time for which threads other than the haptic thread have their priority. The kernel stops all
+/// The shares of time in which threads other than the haptic thread have their priority. The kernel stops all
 /// SCHED_FIFO threads of a processor, including the haptic thread, if they compute for nearly all of a second (by
 /// default 0.95 s, see `sched_rt_runtime_us`). With one glove, the shares add up to 0.9 of one processor.
 ///
