@@ -40,7 +40,7 @@ void warn_or_refuse(const std::string& warning) {
 }  // namespace
 
 void add_strict_option(CLI::App& command) {
-  command.add_flag("--strict", is_strict(), "Take warnings about the content of mesh files as errors");
+  command.add_flag("--strict", is_strict(), "Treat warnings about the content of mesh files as errors");
 }
 
 geometry::ImportedMesh import_with_warnings(const std::string& path, double scale) {

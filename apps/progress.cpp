@@ -24,7 +24,7 @@ bool& is_quiet() {
 }
 
 void add_quiet_option(CLI::App& command) {
-  command.add_flag("--quiet", is_quiet(), "Show no progress of long work");
+  command.add_flag("--quiet", is_quiet(), "Do not show the progress of long work");
 }
 
 ProgressBar::ProgressBar(std::string label, std::int64_t total, AmountText amount,

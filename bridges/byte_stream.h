@@ -1,7 +1,7 @@
 #pragma once
 
-/// A line that carries bytes both ways, such as a serial port. The wires of devices use it, so that they run on real
-/// ports and on emulated devices.
+/// A line that carries bytes both ways, such as a serial port. The wires of devices use this interface, so they work
+/// with real ports and with emulated devices.
 
 #include <chrono>
 #include <string>
@@ -29,11 +29,11 @@ class ByteStream {
   /// Sends all bytes. Throws WireError if the line is closed or gone, or does not take the bytes.
   virtual void write(std::string_view bytes) = 0;
 
-  /// Returns the bytes that have arrived. If there are none, waits up to `patience` for the first ones; the result is
+  /// Returns the bytes that have arrived. If there are none, waits up to `patience` for the first bytes. The result is
   /// empty if none come. Throws WireError if the line is closed or gone.
   virtual std::string read(std::chrono::nanoseconds patience) = 0;
 
-  /// The descriptor of the system for the open line, which another process may use; −1 if there is none.
+  /// The file descriptor of the open line, for use by another process; −1 if there is none.
   virtual int descriptor() const noexcept = 0;
 };
 

@@ -1,6 +1,6 @@
 #pragma once
 
-/// From what the sensors of a glove report in the poses of `calibration_poses.h` to a calibration.
+/// Computes a calibration from the angles that a glove reports in the poses of `calibration_poses.h`.
 
 #include <array>
 #include <optional>
@@ -17,7 +17,7 @@
 
 namespace glissade::bridges {
 
-/// The data do not suffice for a calibration. `what` says what is wrong with them, and what helps.
+/// The data do not suffice for a calibration. `what()` says what is wrong with the data, and what helps.
 class CalibrationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -31,16 +31,17 @@ struct HeldPose {
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
 };
 
-/// Of the states of one hold. The hand was still if the medians of the first, second and last third of the hold agree:
-/// noise and tremor do not count. Throws CalibrationError if the hand moved, or for too few states.
+/// Computes the held pose from the states of one hold. The hand was still if the medians of the first, second and last
+/// third of the hold agree. So noise and tremor do not count as motion. Throws CalibrationError if the hand moved, or
+/// for too few states.
 HeldPose held_pose(std::span<const devices::GloveState> states, const devices::DeviceDescriptor& descriptor);
 
 struct JointFits {
   std::array<std::optional<devices::JointCalibration>, hands::kJoints> joints{};
-  std::vector<std::string> remarks;  ///< sentences: poses that do not count for a joint
+  std::vector<std::string> remarks;  ///< sentences about poses that do not count for a joint
 };
 
-/// Fits gain and offset of each joint: least squares over the poses that are within their tolerances of the line of
+/// Fits gain and offset of each joint by least squares, over the poses that are within their tolerances of the line of
 /// least absolute errors. So a pose that the wearer shows differently does not matter. A joint whose angle is the same
 /// in all poses gets an offset only. A joint that the device does not measure, i.e. whose angle never changed, and the
 /// joints of `without` get no calibration. Throws CalibrationError with a sentence for each joint whose data are bad.

@@ -16,7 +16,7 @@ inline constexpr std::size_t kCalibrationPoses = 7;
 struct CalibrationPose {
   std::string_view name;
   std::string_view guidance;  ///< a sentence for the wearer
-  double tolerance;           ///< rad; by how much the angles of wearers who show the pose may differ
+  double tolerance;           ///< rad; allowed differences between wearers who show the pose
   /// In the order of `hands::kJointNames`, rad; no value for a joint that the pose does not determine.
   std::array<std::optional<double>, hands::kJoints> angles;
 };
@@ -25,7 +25,7 @@ struct CalibrationPose {
 /// touch (`calibration_poses_test`). The fist is that of a gloved hand, which closes less than a bare one.
 const std::array<CalibrationPose, kCalibrationPoses>& calibration_poses();
 
-/// The whole posture of a hand that shows a pose; joints that the pose does not determine are straight.
+/// The whole posture of a hand that shows a pose. Joints that the pose does not determine are straight.
 hands::JointValues posture_of(const CalibrationPose& pose);
 
 }  // namespace glissade::bridges

@@ -12,9 +12,9 @@
 
 namespace glissade::bridges {
 
-/// Looks at the angles minute by minute. A joint leaves its range if it is far outside for a tenth of a minute or
-/// longer: outside of what was calibrated and of what a human joint can do. It drifts if both ends of its range have
-/// moved to the same side since the first minute in which it moved. So a hand that does something else is no drift.
+/// Examines the angles minute by minute. A joint leaves its range if its angle is far outside both the calibrated range
+/// and the range of a human joint for a tenth of a minute or longer. A joint drifts if both ends of its range have
+/// moved to the same side since the first minute in which the joint moved. So other motions of the hand are no drift.
 class DriftWatch {
  public:
   explicit DriftWatch(devices::Calibration calibration) : calibration_(std::move(calibration)) {}

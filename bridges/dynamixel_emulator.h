@@ -1,7 +1,7 @@
 #pragma once
 
-/// A glove of Dynamixel servos without hardware, behind pseudo-terminals, with the fingers of a wearer. For tests of
-/// the bridge, and for everybody who has no such glove.
+/// An emulated glove of Dynamixel servos, with the fingers of a wearer, behind pseudo-terminals. For tests of the
+/// bridge, and for people without such a glove.
 
 #include <cstdint>
 #include <memory>
@@ -31,17 +31,17 @@ struct EmulatedServoState {
 /// Runs in a thread of its own from construction to destruction. The dynamics are those of the preset "dynamixel".
 class DynamixelEmulator {
  public:
-  /// Throws what `validate` throws for the hand; std::system_error if the system refuses a port.
+  /// Throws what `validate` throws for the hand, and std::system_error if the system refuses a port.
   explicit DynamixelEmulator(const DynamixelHand& hand, const DynamixelEmulatorOptions& options = {});
   ~DynamixelEmulator();
 
-  /// For `SerialStream`: the link if there is one. Any thread, as the functions below.
+  /// The port for `SerialStream`, or the link if there is one. Any thread may call this and the following functions.
   std::string port() const;
-  /// Empty without measured joints.
+  /// The same for the measuring board; empty without measured joints.
   std::string board_port() const;
   /// In the order of the hand's servos.
   std::vector<EmulatedServoState> servos() const;
-  /// The ports vanish, as if the plug of the adapter were pulled; and come back. The servos have their own supply.
+  /// Removes the ports, as if the plug of the adapter were pulled, and restores them. The servos have their own supply.
   void unplug();
   void plug();
 

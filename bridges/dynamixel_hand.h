@@ -1,6 +1,6 @@
 #pragma once
 
-/// A glove of Dynamixel servos, such as the DOGlove: servos drive some joints of the hand and measure them. A board of
+/// A glove of Dynamixel servos, such as the DOGlove. Servos drive some joints of the hand and measure them. A board of
 /// potentiometers may measure more joints.
 
 #include <chrono>
@@ -36,7 +36,7 @@ struct MeasuredJoint {
   double zero = 0.0;   ///< angle of the potentiometer while the joint angle is 0, rad
 };
 
-/// A hand of servos of one model on one bus, and what is measured besides.
+/// A hand with servos of one model on one bus, and with other measured joints.
 struct DynamixelHand {
   std::string name = "Dynamixel hand";
   std::string model = "XL330-M288";  ///< also XL330-M077, XC330-M288 and XC330-M181
@@ -45,7 +45,7 @@ struct DynamixelHand {
   double baud_rate = 3e6;                                           ///< of the bus, bits per second
   std::chrono::nanoseconds period{std::chrono::milliseconds(2)};    ///< of measurements and commands
   std::chrono::nanoseconds patience{std::chrono::milliseconds(5)};  ///< longest latency of the serial adapter
-  /// A servo that hears nothing for so long stops by itself. Rounded to steps of 20 ms, from 20 ms to 2.54 s.
+  /// A servo that receives nothing for this time stops by itself. Rounded to steps of 20 ms, from 20 ms to 2.54 s.
   std::chrono::nanoseconds watchdog{std::chrono::milliseconds(60)};
   double max_stiffness = 5.0;  ///< largest stiffness of a joint limit, Nm/rad
   int position_d_gain = 0;     ///< register Position D Gain
@@ -60,17 +60,18 @@ struct DynamixelHand {
 /// and key, for a file that is no valid configuration. docs/devices.md has the keys.
 DynamixelHand read_dynamixel_hand(const std::string& preset_or_path);
 
-/// The configuration in the text of a file. `source` is the file's name, for messages. Throws the same.
+/// The configuration in the text of a file. `source` is the file's name, for messages. Throws like
+/// `read_dynamixel_hand`.
 DynamixelHand parse_dynamixel_hand(const std::string& text, const std::string& source);
 
 /// The names of all presets.
 std::vector<std::string> dynamixel_presets();
 
 /// Throws std::invalid_argument, naming the hand and the field, if a number is out of range, a model or joint does not
-/// exist, or two servos share an id or two entries a joint.
+/// exist, two servos share an id, or two entries share a joint.
 void validate(const DynamixelHand& hand);
 
-/// What the hand announces: the joints, and limits from the numbers of its servos. Throws what `validate` throws.
+/// The descriptor of the hand: its joints, and limits from the numbers of its servos. Throws what `validate` throws.
 devices::DeviceDescriptor descriptor_of(const DynamixelHand& hand);
 
 /// What passes over the wire, for people. Lists are in the order of the hand's servos.
@@ -87,18 +88,19 @@ class DynamixelBusWire : public Wire {
   virtual DynamixelTraffic traffic() const = 0;
 };
 
-/// The wire to a hand. `bus` leads to the servos; `board` to the measuring board, or is null without measured joints.
-/// Throws what `validate` throws; std::invalid_argument if a line is missing.
+/// The wire to a hand. `bus` leads to the servos. `board` leads to the measuring board, and is null without measured
+/// joints. Throws what `validate` throws, and std::invalid_argument if a line is missing.
 ///
-/// Opening sets up each servo: its torque is off, then it holds a goal position with a cap of current (operating mode
-/// 5), and its bus watchdog runs. Settings in EEPROM are written only where they differ.
+/// Opening sets up each servo: turns its torque off, selects operating mode 5 (a goal position with a cap of current),
+/// and starts its bus watchdog. Settings in EEPROM are written only where they differ.
 ///
 /// A joint limit is held by the servo itself: the goal position is the limit, the cap of current its largest torque,
 /// and the gain its stiffness. A servo also pulls toward its goal. So the cap is 0 while the joint is more than the
 /// gear's backlash inside its range, and the torque is off farther inside. Damping of limits is not used.
 ///
-/// On a port of the system, a second process turns the torque of all servos off when this one is killed or hangs
-/// (`ReleaseGuard`): a servo whose bus watchdog has expired holds its place, with up to its cap of current.
+/// On a port of the system, a second process (`ReleaseGuard`) turns the torque of all servos off when this process is
+/// killed or hangs. Without it, a servo whose bus watchdog has expired would hold its place, with up to its cap of
+/// current.
 std::unique_ptr<DynamixelBusWire> make_dynamixel_wire(const DynamixelHand& hand, std::shared_ptr<ByteStream> bus,
                                                       std::shared_ptr<ByteStream> board = nullptr,
                                                       std::shared_ptr<realtime::Clock> clock = nullptr);

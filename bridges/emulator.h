@@ -1,6 +1,6 @@
 #pragma once
 
-/// What emulators of devices have in common. An emulated device has the wire of a real one, behind a port of this
+/// What emulators of devices have in common. An emulated device has the wire of a real device, behind a port of this
 /// machine, and the dynamics of a glove's model with a wearer.
 
 #include <chrono>
@@ -12,9 +12,9 @@
 
 namespace glissade::bridges {
 
-/// What may happen to the bytes that a device sends at one time, such as a line or a packet. Shares are from 0 to 1.
+/// Faults of the bytes that a device sends at one time, such as a line or a packet. Shares are from 0 to 1.
 struct LineFaults {
-  double garbage = 0.0;                  ///< share that follows up to 20 random bytes
+  double garbage = 0.0;                  ///< share before which up to 20 random bytes arrive
   double cut = 0.0;                      ///< share of which only a first part arrives
   double flipped_bit = 0.0;              ///< share with one wrong bit
   bool has_echo = false;                 ///< the host hears its own bytes

@@ -15,8 +15,8 @@ inline constexpr std::size_t kFingers = 5;
 /// one that is closed.
 using FingerValues = std::array<double, kFingers>;
 
-/// The angles (rad) of all joints. Those that do not curl stay: the thumb opposite to the palm, fingers side by side, a
-/// straight wrist.
+/// The angles (rad) of all joints. Joints that do not curl have fixed angles: the thumb opposite to the palm, fingers
+/// side by side, a straight wrist.
 hands::JointValues angles_of(const FingerValues& curls) noexcept;
 
 }  // namespace glissade::bridges

@@ -32,17 +32,17 @@ struct HaplyTraffic {
   std::uint64_t refused = 0;                        ///< messages that were no states
   std::string last_refusal;                         ///< what was wrong with the last of them
   Eigen::Vector3d f_H_W = Eigen::Vector3d::Zero();  ///< the force that was sent, N
-  /// The force that the service says it exerts, N. It differs by what the service's filters change.
+  /// The force (N) that the service reports as exerted. The service's filters make it differ from the sent force.
   std::optional<Eigen::Vector3d> exerted_H_W;
 };
 
 /// Sends a force 1000 times a second, each time after the service has answered the message before. The service exerts a
-/// force only while messages come, so nothing lasts when this process is killed or hangs.
+/// force only while messages come, so no force lasts when this process is killed or hangs.
 class HaplyWire final : public Wire {
  public:
   /// Throws std::invalid_argument if the service is not "HOST" or "HOST:PORT".
   explicit HaplyWire(HaplyOptions options);
-  /// Releases.
+  /// Releases the device.
   ~HaplyWire() override;
 
   const devices::DeviceDescriptor& descriptor() const noexcept override;

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Terms of OpenGloves, the wire of LucidGloves and its kin, for the bridge and for the emulator.
+/// Constants and types for OpenGloves, the protocol of LucidGloves and similar gloves, for the bridge and the emulator.
 
 #include <glissade/bridges/finger_values.h>
 #include <glissade/devices/glove_device.h>
@@ -17,8 +17,8 @@ enum class OpenGlovesEncoding {
   kLegacy,  ///< 13 numbers: 1024&0&17&0&4095&2047&2047&0&0&0&0&0&0
 };
 
-/// The numbers that the sensor of a finger gives. The firmware of LucidGloves scales what it has seen since its start
-/// to the whole range of the board's converter: 0 to 4095 of an ESP32, 0 to 1023 of an AVR.
+/// The numbers that the sensor of a finger gives. The firmware of LucidGloves scales the range that it has seen since
+/// its start to the whole range of the board's converter: 0 to 4095 on an ESP32, 0 to 1023 on an AVR.
 struct SensorRange {
   double open = 0.0;
   double closed = 4095.0;  ///< differs from `open`; may be less
@@ -27,7 +27,7 @@ struct SensorRange {
 /// The preset "opengloves": servos, strings, sensors and link of such a glove.
 devices::GloveModel opengloves_model();
 
-/// What such a glove renders, with the numbers of its model: limits of the fingers, and no force on the hand.
+/// The descriptor of such a glove, from its model. The glove renders limits of the fingers, and no force on the hand.
 devices::DeviceDescriptor opengloves_descriptor();
 
 }  // namespace glissade::bridges

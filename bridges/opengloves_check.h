@@ -1,6 +1,6 @@
 #pragma once
 
-/// What is wrong with the wire to an OpenGloves glove, in sentences for people.
+/// Checks the wire to an OpenGloves glove, and reports in sentences for people.
 
 #include <chrono>
 #include <functional>
@@ -11,7 +11,7 @@
 namespace glissade::bridges {
 
 /// Opens the port, listens for some seconds, leaves all fingers free, and closes the port. `say` receives a sentence
-/// for each finding: the port, the encoding, the rate, the first numbers, and doubts. Ends early when `goes_on` returns
+/// for each finding: the port, the encoding, the rate, first numbers and warnings. Ends early when `goes_on` returns
 /// false. Returns whether a bridge can work with the glove. Throws what `SerialStream` throws at its construction.
 bool check_opengloves(const OpenGlovesOptions& options, const std::function<bool()>& goes_on,
                       const std::function<void(const std::string&)>& say);

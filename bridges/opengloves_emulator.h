@@ -1,7 +1,7 @@
 #pragma once
 
-/// A glove without hardware: the firmware of LucidGloves, five servos with strings and the fingers of a wearer, behind
-/// a pseudo-terminal or a TCP port. For tests of the bridge, and for everybody who has no glove.
+/// An emulated glove: the firmware of LucidGloves, five servos with strings and the fingers of a wearer, behind a
+/// pseudo-terminal or a TCP port. For tests of the bridge, and for people without a glove.
 
 #include <array>
 #include <chrono>
@@ -20,7 +20,7 @@ struct OpenGlovesEmulatorOptions {
   OpenGlovesEncoding encoding = OpenGlovesEncoding::kAlpha;
   double rate_Hz = 90.0;  ///< of the states, at most
   int full_scale = 4095;  ///< the number of a closed finger
-  /// After a state, the firmware waits so long for a line. On USB, that of LucidGloves waits a second.
+  /// Time for which the firmware waits for a line after a state. On USB, the firmware of LucidGloves waits a second.
   std::chrono::nanoseconds line_patience{std::chrono::seconds(1)};
   std::string link;             ///< path of a link to the pseudo-terminal, which stays the same; empty: none
   bool is_tcp = false;          ///< a TCP port of this machine in place of a pseudo-terminal
@@ -37,23 +37,23 @@ struct EmulatedGlove {
   FingerValues curls{};
   std::uint64_t limit_lines = 0;     ///< lines with limits that were read
   std::uint64_t stopping_lines = 0;  ///< those of them that do not leave all fingers free
-  std::uint64_t other_lines = 0;     ///< other lines; the firmware ignores them, or does anything
-  std::uint64_t lost_bytes = 0;      ///< that found no room in the board's buffer
-  std::ptrdiff_t waiting_lines = 0;  ///< that the firmware has not read yet
+  std::uint64_t other_lines = 0;     ///< other lines; what the firmware does with them is undefined
+  std::uint64_t lost_bytes = 0;      ///< bytes that found no room in the board's buffer
+  std::ptrdiff_t waiting_lines = 0;  ///< lines that the firmware has not read yet
 };
 
 /// Runs in a thread of its own from construction to destruction.
 class OpenGlovesEmulator {
  public:
-  /// Throws std::invalid_argument for options out of range, std::system_error if the system refuses a port.
+  /// Throws std::invalid_argument for options out of range, and std::system_error if the system refuses a port.
   explicit OpenGlovesEmulator(const OpenGlovesEmulatorOptions& options);
   ~OpenGlovesEmulator();
 
-  /// For `SerialStream`: the link if there is one. Any thread, as the functions below.
+  /// The port for `SerialStream`, or the link if there is one. Any thread may call this and the following functions.
   std::string port() const;
   EmulatedGlove state() const;
-  /// The port vanishes, as if the plug were pulled; and comes back, under the same name if it has a link or is a TCP
-  /// port. The servos keep their limits.
+  /// Removes the port, as if the plug were pulled, and restores it. If the port has a link or is a TCP port, its name
+  /// stays the same. The servos keep their limits.
   void unplug();
   void plug();
 

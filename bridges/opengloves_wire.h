@@ -19,7 +19,7 @@ struct OpenGlovesOptions {
 };
 
 /// `LcmGloveHostOptions::patience_periods` for a bridge to such a glove. After the last command, the limits open within
-/// 0.1 s: the patience, a period of the wire, and a line.
+/// 0.1 s, i.e. the patience, a period of the wire and the time of a line.
 inline constexpr double kOpenGlovesPatience_periods = 3.0;
 
 /// What passes over the wire, for people.
@@ -33,15 +33,15 @@ struct OpenGlovesTraffic {
 };
 
 /// Finds the encoding by itself. Sends all five limits, once for each state, because the firmware reads no more. The
-/// firmware keeps the last limits for ever: a second process, which the constructor starts, releases the glove when
-/// this one is killed or hangs (`ReleaseGuard`). While a command fades, all limits are open: a servo is slow enough by
-/// itself, and a string that slackens pushes nobody.
+/// firmware keeps the last limits for ever. Therefore the constructor starts a second process (`ReleaseGuard`), which
+/// releases the glove when this process is killed or hangs. While a command fades, all limits are open: a servo is slow
+/// enough by itself, and a string that slackens pushes nobody.
 class OpenGlovesWire final : public Wire {
  public:
   /// Throws what `SerialStream` and `ReleaseGuard` throw, and std::invalid_argument for a sensor whose range is empty
   /// or not finite.
   explicit OpenGlovesWire(OpenGlovesOptions options);
-  /// Releases.
+  /// Releases the glove.
   ~OpenGlovesWire() override;
 
   const devices::DeviceDescriptor& descriptor() const noexcept override;

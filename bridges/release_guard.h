@@ -1,7 +1,7 @@
 #pragma once
 
-/// A second process that lets a device go of the hand when the first one cannot: because it was killed, or hangs. For
-/// devices that keep the last command.
+/// A second process that releases a device when the first process cannot, because it was killed or hangs. For devices
+/// that keep the last command.
 
 #include <chrono>
 #include <string>
@@ -11,17 +11,17 @@
 
 namespace glissade::bridges {
 
-/// The second process is a fork. It has nothing of the first one but the descriptor of the device's connection, and
-/// sends bytes there that release the device
+/// The second process is a fork. Of the first process, it keeps only the descriptor of the device's connection. Over
+/// this connection, it sends bytes that release the device
 /// - at once when the first process ends, even by SIGKILL, without a call of `disarm`;
 /// - when nobody calls `renew` for 0.1 s.
-/// Signals of a terminal do not reach it. It ends with the first process. A second process that is no more, or does not
-/// listen, is replaced by another one. One thread calls all functions.
+/// Signals of a terminal do not reach the second process. It ends with the first process. A second process that has
+/// ended, or does not respond, is replaced by another one. One thread calls all functions.
 class ReleaseGuard {
  public:
   /// Starts the second process. Throws WireError if the system refuses one.
   ReleaseGuard();
-  /// Ends the second process within half a second. Does not release.
+  /// Ends the second process within half a second. Does not release the device.
   ~ReleaseGuard();
   ReleaseGuard(const ReleaseGuard&) = delete;
   ReleaseGuard& operator=(const ReleaseGuard&) = delete;
@@ -29,13 +29,14 @@ class ReleaseGuard {
   /// From now on the device behind this descriptor is guarded. `release` is at most 100 bytes. It is sent three times,
   /// and must work after a command that was cut. Throws WireError if there is no second process.
   void arm(int descriptor, std::string_view release);
-  /// The first process is well. Call it at least every 50 ms while armed. Throws WireError if there is no second
-  /// process.
+  /// Reports that the first process is well. Call this function at least every 50 ms while armed. Throws WireError if
+  /// there is no second process.
   void renew();
-  /// The device is released, or gone: the second process closes its descriptor and sends nothing more.
+  /// Call this function when the device is released or gone. The second process closes its descriptor, and stays
+  /// silent.
   void disarm() noexcept;
 
-  /// The number of the second process.
+  /// The process id of the second process.
   pid_t id() const noexcept { return id_; }
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The serial ports of this machine, and what is wrong with one.
+/// Lists the serial ports of this machine, and explains errors of a port.
 
 #include <string>
 #include <system_error>

@@ -11,9 +11,9 @@
 
 namespace glissade::bridges {
 
-/// `open` connects: to a serial port with 8 data bits, no parity, 1 stop bit and no flow control, at any baud rate that
-/// the port takes, for this program alone; or by TCP within 0.8 s. Looking up the name of a host takes another 0.8 s at
-/// most. `write` throws if the device does not take the bytes within 0.1 s.
+/// `open` connects to a serial port for this program alone, with 8 data bits, no parity, 1 stop bit, no flow control,
+/// and any baud rate that the port takes. By TCP, `open` connects within 0.8 s. Looking up the name of a host takes
+/// another 0.8 s at most. `write` throws if the device does not take the bytes within 0.1 s.
 class SerialStream final : public ByteStream {
  public:
   /// `port` is the path of a serial port, such as "/dev/ttyUSB0", or "tcp:HOST:PORT". With a default TCP port,

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The wire to a device that one can own, such as a serial port. A bridge joins a wire to the link of Glissade.
+/// The wire of a device: its own protocol over a line such as a serial port. A bridge connects it to the link of
+/// gloves.
 
 #include <chrono>
 #include <stdexcept>
@@ -30,8 +31,8 @@ class Wire {
   virtual void open() = 0;
 
   /// Waits for at most a period for the next measurement and writes its numbers into `state`: the time (monotonic
-  /// clock), and of angles, pose and velocities those that the device measures. Returns whether one came. Throws
-  /// WireError.
+  /// clock), and those of angles, pose and velocities that the device measures. Returns whether a measurement came.
+  /// Throws WireError.
   virtual bool read(devices::GloveState& state) = 0;
 
   /// Sends the command of this period. Throws WireError.

@@ -12,14 +12,15 @@
  * Status. Each function that can fail returns a status, and writes its results only if the status is GLISSADE_OK. No
  * exception leaves a function. glissade_last_error() has the sentence that names the wrong argument, key or value.
  *
- * Handles. A handle names an object of the library. It is a number, so a null handle, a handle of another kind, and a
- * handle whose object has been freed are errors, never a crash. Objects may be freed in any order: a server keeps its
- * simulation and gloves, and the scene is copied. The caller owns every object that it makes, and frees it once.
+ * Handles. A handle is a number that names an object of the library. A null handle, a handle of another kind, or a
+ * handle whose object has been freed is an error, and never crashes the program. Objects may be freed in any order: a
+ * server keeps its simulation and gloves, and the scene is copied. The caller owns every object that it makes, and
+ * frees it once.
  *
- * Threads. Any thread may call any function. Calls on the same object wait for each other, except
- * glissade_server_frame and glissade_server_emergency_stop, which wait for no other call of a different kind. Neither
- * the haptic thread nor the simulation thread ever waits for a call. Pointers to arrays and texts that a caller passes
- * are read during the call only. */
+ * Threads. Any thread may call any function. Calls on the same object wait for each other. There are two exceptions:
+ * glissade_server_frame waits only for other calls of itself, and glissade_server_emergency_stop waits for no call.
+ * Neither the haptic thread nor the simulation thread ever waits for a call. Arrays and texts that a caller passes are
+ * read during the call only. */
 
 #include <stddef.h>
 #include <stdint.h>
@@ -67,7 +68,7 @@ typedef struct GlissadePose {
 
 /** The version of the library, such as "0.1.0". */
 GLISSADE_API const char* glissade_version(void);
-/** What went wrong in the last call of this thread that failed; empty if none has. Valid until the next failure. */
+/** The error message of this thread's last failed call; empty if none has failed. Valid until the next failure. */
 GLISSADE_API const char* glissade_last_error(void);
 /** The time of the haptic loop's clock, CLOCK_MONOTONIC. */
 GLISSADE_API int64_t glissade_now_ns(void);
@@ -77,14 +78,14 @@ GLISSADE_API int64_t glissade_now_ns(void);
  * centimetres. The world W has x forwards, y to the left and z up. */
 typedef enum GlissadeEngine { GLISSADE_UNITY = 0, GLISSADE_UNREAL = 1 } GlissadeEngine;
 
-/** A pose of W as the frame of a GlissadeEngine, and back. Meshes must be converted by the same rule, each vertex as a
+/** Converts a pose in W to the frame of an engine, and back. Convert meshes by the same rule, each vertex as a
  * position. */
 GLISSADE_API GlissadeStatus glissade_pose_to_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
 GLISSADE_API GlissadeStatus glissade_pose_from_engine(int32_t engine, const GlissadePose* pose, GlissadePose* out);
-/** Turns the axes of a vector such as a force or a velocity, and does not scale it. */
+/** Converts a vector such as a force or a velocity to the axes of the engine, and back, without scaling. */
 GLISSADE_API GlissadeStatus glissade_vector_to_engine(int32_t engine, const double vector[3], double out[3]);
 GLISSADE_API GlissadeStatus glissade_vector_from_engine(int32_t engine, const double vector[3], double out[3]);
-/** The same for a torque or an angular velocity: axial vectors, whose sign a mirror image changes. */
+/** The same for a torque or an angular velocity. These axial vectors change their sign in a reflection. */
 GLISSADE_API GlissadeStatus glissade_torque_to_engine(int32_t engine, const double torque[3], double out[3]);
 GLISSADE_API GlissadeStatus glissade_torque_from_engine(int32_t engine, const double torque[3], double out[3]);
 
@@ -96,33 +97,32 @@ GLISSADE_API GlissadeStatus glissade_scene_read(const char* path, GlissadeScene*
 GLISSADE_API GlissadeStatus glissade_scene_free(GlissadeScene scene);
 
 /** Adds an object that stands still at the pose X_WB; null is the identity. The mesh is in the object's frame B:
- * vertices as x, y, z one after the other (metres), and three indices for each triangle. Each name is used once. */
+ * vertices as x, y, z one after the other (metres), and three indices for each triangle. Names must be unique. */
 GLISSADE_API GlissadeStatus glissade_scene_add_mesh(GlissadeScene scene, const char* name, const double* vertices,
                                                     size_t vertex_count, const int32_t* triangles,
                                                     size_t triangle_count, const GlissadePose* X_WB);
-/** The mesh of a file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, such as 0.001 for millimetres. */
+/** Adds the mesh of a file (OBJ, STL, PLY, glTF) whose unit is `scale` metres, such as 0.001 for millimetres. */
 GLISSADE_API GlissadeStatus glissade_scene_add_file(GlissadeScene scene, const char* name, const char* path,
                                                     double scale, const GlissadePose* X_WB);
-/** A shape of the catalogue in docs/scene_files.md, such as "box". Parameters that are not given have their defaults.
- */
+/** Adds a shape of the catalogue in docs/scene_files.md, such as "box". Other parameters have their defaults. */
 GLISSADE_API GlissadeStatus glissade_scene_add_shape(GlissadeScene scene, const char* name, const char* type,
                                                      const char* const* parameters, const double* values,
                                                      size_t parameter_count, const GlissadePose* X_WB);
-/** Of an object that has been added or read: hands can hold it (1) or not (0); its pose; the gap (metres, at most
- * 0.00025) at which it stops parts, if it is fixed. */
+/** Properties of an object that has been added or read: whether hands can hold it (1) or not (0); its pose; and, for a
+ * fixed object, the gap (metres, at most 0.00025) at which it stops parts. */
 GLISSADE_API GlissadeStatus glissade_scene_set_movable(GlissadeScene scene, const char* name, int is_movable);
 GLISSADE_API GlissadeStatus glissade_scene_set_pose(GlissadeScene scene, const char* name, const GlissadePose* X_WB);
 GLISSADE_API GlissadeStatus glissade_scene_set_margin(GlissadeScene scene, const char* name, double margin_m);
 
-/** Adds a hand with fingers, for gloves that measure them. Lengths are those of docs/grasping.md, 0 for a typical
- * man's: from the wrist to the tip of the middle finger, and across the knuckles. At most GLISSADE_MAX_HANDS. */
+/** Adds a hand with fingers, for gloves that measure them. `length_m` is measured from the wrist to the tip of the
+ * middle finger, `breadth_m` across the knuckles. 0 means that of a typical man. At most GLISSADE_MAX_HANDS. */
 GLISSADE_API GlissadeStatus glissade_scene_add_hand(GlissadeScene scene, int is_left, double length_m,
                                                     double breadth_m);
-/** Coulomb friction of all contacts: at rest, and while sliding (at most as large). 0 and 0 turn it off. */
+/** Coulomb friction of all contacts: coefficients at rest, and while sliding (at most `at_rest`). 0 and 0: off. */
 GLISSADE_API GlissadeStatus glissade_scene_set_friction(GlissadeScene scene, double at_rest, double sliding);
-/** Stiffness of the spring between ghost and part. Default: 1000 N/m. A device that renders less gets less. */
+/** Stiffness of the spring between ghost and part. Default: 1000 N/m. A device may render less. */
 GLISSADE_API GlissadeStatus glissade_scene_set_stiffness(GlissadeScene scene, double stiffness_N_per_m);
-/** Few steps, a search thread and a bounded work in each call: for scenes that a server runs. Keeps the friction. */
+/** Limits steps and work of each call, and uses a search thread: for scenes that a server runs. Keeps friction. */
 GLISSADE_API GlissadeStatus glissade_scene_use_real_time_rules(GlissadeScene scene);
 
 /** An object for a renderer. The pointers stay valid until the scene is changed or freed. */
@@ -139,10 +139,10 @@ typedef struct GlissadeObject {
 GLISSADE_API GlissadeStatus glissade_scene_object_count(GlissadeScene scene, size_t* count);
 GLISSADE_API GlissadeStatus glissade_scene_object(GlissadeScene scene, size_t object, GlissadeObject* out);
 
-/* ---- Simulation: the scene in motion, in calls of the caller, without devices. Deterministic. Parts are numbered in
- * the order of the scene's movable objects. Frames of a server have the objects that move on their own after them.
+/* ---- Simulation: the scene in motion, without devices. The caller advances it. Deterministic. Parts are numbered in
+ * the order of the scene's movable objects. In the frames of a server, the objects that move on their own come next.
  * Bodies are numbered: first the fixed ones, then the parts, then the objects that move on their own. While a server
- * uses a simulation, only its numbers and names may be asked for. */
+ * uses a simulation, a caller may ask only for its numbers and names. */
 
 typedef enum GlissadePartState {
   GLISSADE_PART_UNKNOWN = 0,    /**< not yet reported */
@@ -163,7 +163,7 @@ typedef struct GlissadePart {
 } GlissadePart;
 
 typedef struct GlissadeContact {
-  int64_t id;        /**< stays the same as long as the contact lasts, if contacts are asked for after each call */
+  int64_t id;        /**< stays the same while the contact lasts, if you ask for contacts after each call */
   int32_t body;      /**< number of the other body, see glissade_simulation_body_name */
   int32_t padding;   /**< 0 */
   double point_m[3]; /**< on the part, in the world */
@@ -172,7 +172,7 @@ typedef struct GlissadeContact {
   double force_N; /**< along the normal; 0 if the contact does not push */
 } GlissadeContact;
 
-/** The scene is copied, and may be changed or freed. Building its trees takes most of the time. */
+/** Copies the scene, so that you may change or free it. Building the trees of its meshes takes most of the time. */
 GLISSADE_API GlissadeStatus glissade_simulation_new(GlissadeScene scene, GlissadeSimulation* simulation);
 GLISSADE_API GlissadeStatus glissade_simulation_free(GlissadeSimulation simulation);
 /** Moves each part towards its ghost for this time, usually 1 ms. `ghosts` has a pose for each part that hands can
@@ -184,13 +184,13 @@ GLISSADE_API GlissadeStatus glissade_simulation_part_count(GlissadeSimulation si
 GLISSADE_API GlissadeStatus glissade_simulation_find_part(GlissadeSimulation simulation, const char* name,
                                                           size_t* part);
 GLISSADE_API GlissadeStatus glissade_simulation_part(GlissadeSimulation simulation, size_t part, GlissadePart* out);
-/** Writes the first `capacity` touching contacts of the part, and how many there are. */
+/** Writes the first `capacity` touching contacts of the part, and the number of all its touching contacts. */
 GLISSADE_API GlissadeStatus glissade_simulation_contacts(GlissadeSimulation simulation, size_t part,
                                                          GlissadeContact* contacts, size_t capacity, size_t* count);
 /** The distance (metres) from the part to the nearest other body. Costs one query for each body. */
 GLISSADE_API GlissadeStatus glissade_simulation_clearance(GlissadeSimulation simulation, size_t part,
                                                           double* clearance_m);
-/** Valid until the simulation and every server of it have been freed. */
+/** The name of a body. Valid until the simulation and all servers that use it have been freed. */
 GLISSADE_API GlissadeStatus glissade_simulation_body_name(GlissadeSimulation simulation, int32_t body,
                                                           const char** name);
 
@@ -215,8 +215,8 @@ typedef enum GlissadeReason {
   GLISSADE_REASON_ENERGY_LIMITED = 1 << 14  /**< by the energy that is left, see docs/safety.md */
 } GlissadeReason;
 
-/** What a device can do; see devices/glove_device.h. 0 means: exerts none, or not known. Required:
- * max_stiffness_N_per_m and max_rotational_stiffness_Nm_per_rad. */
+/** Capabilities and limits of a device; see devices/glove_device.h. 0 means that the device exerts none, or that the
+ * value is not known. Required: max_stiffness_N_per_m and max_rotational_stiffness_Nm_per_rad. */
 typedef struct GlissadeDevice {
   double max_force_N, max_torque_Nm, max_joint_torque_Nm;
   double max_power_W;      /**< that force and torque put into the hand; 50 by default */
@@ -226,11 +226,11 @@ typedef struct GlissadeDevice {
   double max_stiffness_N_per_m, max_rotational_stiffness_Nm_per_rad;
   double damping_Ns_per_m, rotational_damping_Nms_per_rad, joint_damping_Nms_per_rad; /**< of the bare device */
   double friction_N, joint_friction_Nm;                                               /**< of the bare device */
-  double resolution_m, joint_resolution_rad; /**< steps or noise of what it measures */
+  double resolution_m, joint_resolution_rad; /**< steps or noise of the measurements */
   double update_rate_Hz;                     /**< calls of glissade_glove_command a second, 1 to 100000 */
   double delay_s;                            /**< from measurement to force, in addition to the period */
-  double frozen_s;                           /**< longest time with the same bits of a pose; 0: not checked */
-  double max_speed_m_per_s, max_turn_rate_rad_per_s, workspace_radius_m;     /**< beyond: an error of the tracker */
+  double frozen_s;                           /**< longest time with a bit-identical pose; 0: not checked */
+  double max_speed_m_per_s, max_turn_rate_rad_per_s, workspace_radius_m;     /**< more is a tracker error */
   double joint_lower_rad[GLISSADE_JOINTS], joint_upper_rad[GLISSADE_JOINTS]; /**< both 0: there is no such joint */
 } GlissadeDevice;
 
@@ -242,38 +242,39 @@ typedef struct GlissadeGloveState {
   GlissadePose X_WH; /**< of the hand root */
   double velocity_m_per_s[3], angular_velocity_rad_per_s[3]; /**< of the hand root, in world axes */
   double joint_angles_rad[GLISSADE_JOINTS];
-  int64_t grip;       /**< how often the hand has closed or opened: odd while it is closed */
+  int64_t grip;       /**< number of times that the hand has closed or opened: odd while it is closed */
   int32_t is_enabled; /**< 0: the wearer does not hold the enable switch, so there is no force */
   int32_t padding;    /**< 0 */
 } GlissadeGloveState;
 
-/** A closed hand at the origin that is enabled. */
+/** A closed, enabled hand at the origin. */
 GLISSADE_API GlissadeStatus glissade_glove_state_default(GlissadeGloveState* state);
 
 typedef struct GlissadeGloveCommand {
   double force_N[3];   /**< on the hand at the hand root, in world axes */
   double torque_Nm[3]; /**< about the hand root, in world axes */
   double joint_torques_Nm[GLISSADE_JOINTS];
-  int32_t reasons; /**< why it is less than wanted: bits of GlissadeReason */
+  int32_t reasons; /**< why the command is less than wanted: bits of GlissadeReason */
   int32_t padding; /**< 0 */
-  int64_t age_ns;  /**< time since the measurement of the state that it answers */
+  int64_t age_ns;  /**< time since the measurement of the state that the command answers */
 } GlissadeGloveCommand;
 
 /** A glove whose driver is the caller. `name` is for messages. */
 GLISSADE_API GlissadeStatus glissade_glove_new(const char* name, const GlissadeDevice* device, GlissadeGlove* glove);
-/** A simulated glove and its wearer, in a thread of its own. The hand follows the poses X_WH at `times_s` (ascending),
- * and yields to the force. It waits at the first pose until a server runs. 20 N, 1 Nm, 1000 Hz. */
+/** A simulated glove and its wearer, in a separate thread. The hand follows the poses X_WH at `times_s` (ascending),
+ * and yields to the force. It waits at the first pose until a server runs. The glove exerts up to 20 N and 1 Nm, at
+ * 1000 Hz. */
 GLISSADE_API GlissadeStatus glissade_glove_new_simulated(const double* times_s, const GlissadePose* X_WH, size_t count,
                                                          GlissadeGlove* glove);
 GLISSADE_API GlissadeStatus glissade_glove_free(GlissadeGlove glove);
-/** Driver: the newest state. Call it once for each measurement. */
+/** Driver: passes on the newest state. Call this function once for each measurement. */
 GLISSADE_API GlissadeStatus glissade_glove_put(GlissadeGlove glove, const GlissadeGloveState* state);
-/** Driver: what the device must exert now. Call it once a period, after glissade_glove_put. The force fades to zero if
- * states stop, or if the server is late, stops or ends; so it never lasts. If the driver itself halts, only the
- * device's watchdog lets go (docs/safety.md). Of a simulated glove: what it exerts; any thread may ask. */
+/** Driver: the command that the device must execute now. Call this function once a period, after glissade_glove_put.
+ * The force fades to zero if states stop, or if the server is late, stops or ends. If the driver itself halts, only the
+ * device's watchdog ends the force (docs/safety.md). For a simulated glove: the command that it executes. Any thread
+ * may ask for it. */
 GLISSADE_API GlissadeStatus glissade_glove_command(GlissadeGlove glove, GlissadeGloveCommand* command);
-/** Writes the most serious of the reasons as a sentence, cut to `capacity` bytes with the final 0; "" without reason.
- */
+/** Writes the most serious reason as a sentence, cut to `capacity` bytes with the final 0; "" without a reason. */
 GLISSADE_API GlissadeStatus glissade_reason_text(int32_t reasons, int64_t age_ns, char* text, size_t capacity);
 
 /* ---- The haptic loop: forces at 1000 Hz in one thread, the simulation in another. */
@@ -303,7 +304,7 @@ typedef struct GlissadeFrameContact {
   double point_m[3], normal[3]; /**< in the world; from the obstacle to the part */
 } GlissadeFrameContact;
 
-/** The state after one tick of the haptic thread. All of it is of the same tick. */
+/** The state after one tick of the haptic thread. All fields belong to this tick. */
 typedef struct GlissadeFrame {
   int64_t tick;    /**< 0 before the first one */
   int64_t time_ns; /**< on the clock of glissade_now_ns */
@@ -318,24 +319,24 @@ typedef struct GlissadeStatistics {
   int32_t has_real_time_priority, has_locked_memory;
 } GlissadeStatistics;
 
-/** Starts the loop with these gloves: first those of the scene's hands. A hand without fingers takes the first part
- * when its glove is closed at the start; later, its grip decides. Use glissade_scene_use_real_time_rules. */
+/** Starts the loop with these gloves. The gloves of the scene's hands come first. A hand without fingers takes the
+ * first part if its glove is closed at the start. Later, its grip decides. Use glissade_scene_use_real_time_rules. */
 GLISSADE_API GlissadeStatus glissade_server_start(GlissadeSimulation simulation, const GlissadeGlove* gloves,
                                                   size_t glove_count, GlissadeServer* server);
-/** Lets the forces fade, and ends the loop; may take some ticks. The gloves and the simulation are free again. */
+/** Lets the forces fade, and ends the loop. May take some ticks. Then the gloves and the simulation are free again. */
 GLISSADE_API GlissadeStatus glissade_server_stop(GlissadeServer server);
-/** Stops it before, if it runs. */
+/** Frees the server, and first stops it if it runs. */
 GLISSADE_API GlissadeStatus glissade_server_free(GlissadeServer server);
-/** GLISSADE_FAILED, with the reason as the last error, if the loop has failed. Then the forces have faded. */
+/** Returns GLISSADE_FAILED if the loop has failed. The last error is then the reason, and the forces have faded. */
 GLISSADE_API GlissadeStatus glissade_server_check(GlissadeServer server);
-/** The newest frame, for a renderer at its own rate. Never waits for the loop. Frames end when the loop fails, see
- * glissade_server_check. After glissade_server_stop, the last frame shows no force. */
+/** The newest frame, for a renderer at its own rate. Never waits for the loop. A loop that has failed
+ * (glissade_server_check) makes no new frames. After glissade_server_stop, the last frame shows no force. */
 GLISSADE_API GlissadeStatus glissade_server_frame(GlissadeServer server, GlissadeFrame* frame);
 GLISSADE_API GlissadeStatus glissade_server_statistics(GlissadeServer server, GlissadeStatistics* statistics);
 /** The hand takes this part, or lets go of its part, in the next tick. For hands without fingers. */
 GLISSADE_API GlissadeStatus glissade_server_grasp(GlissadeServer server, size_t hand, size_t part);
 GLISSADE_API GlissadeStatus glissade_server_release(GlissadeServer server, size_t hand);
-/** All forces fade to zero and stay there; the loop goes on. */
+/** All forces fade to zero and stay there, but the loop goes on. */
 GLISSADE_API GlissadeStatus glissade_server_emergency_stop(GlissadeServer server);
 
 #ifdef __cplusplus

@@ -23,8 +23,8 @@
 namespace glissade::collision {
 
 /// Deterministic: the pairs that a frame finds depend only on the objects, their poses, the enabled pairs and the
-/// distance of the frame, not on the number of threads or on earlier frames. Not thread-safe, but other threads may
-/// edit the world and move its objects at any time. If memory runs out in a frame that several threads share, the
+/// argument `distance` of `step`, not on the number of threads or on earlier frames. Not thread-safe, but other threads
+/// may edit the world and move its objects at any time. If memory runs out in a frame that several threads share, the
 /// program ends.
 class GLISSADE_EXPORT CollisionPipeline {
  public:
@@ -45,7 +45,7 @@ class GLISSADE_EXPORT CollisionPipeline {
   /// negative, not a number, or greater than `PipelineOptions::greatest_distance`. Cost: see `FrameReport`.
   const FrameResult& step(double distance = 0.0);
 
-  /// The result of the last `step`. Before the first `step`, its frame number is 0.
+  /// The result of the last `step`. Before the first `step`, the frame number of the result is 0.
   const FrameResult& result() const;
 
  private:

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The convex hull of an object, and a test of whether two hulls are apart (paper §2.2). A hull encloses an object much
-/// more tightly than a box, and the test takes nanoseconds for a pair that moves little between queries.
+/// more tightly than a box. The test takes nanoseconds for a pair that moves little between queries.
 
 #include <algorithm>
 #include <array>
@@ -58,7 +58,7 @@ class GLISSADE_EXPORT ConvexHull {
   double outside() const { return outside_; }
 
   /// Support mapping: the corner farthest along `direction`, a vector of about unit length. The search climbs from
-  /// neighbor to neighbor, beginning at corner `start`. No corner is farther than the result by more than
+  /// neighbor to neighbor, beginning at corner `start`. Another corner may be farther than the result, but by at most
   /// `climbing_error`. The cost is proportional to the number of neighbors of all corners on the path. From an
   /// arbitrary start, the path has about √n corners. The path is very short if `start` is the result for a similar
   /// direction.
@@ -68,8 +68,9 @@ class GLISSADE_EXPORT ConvexHull {
   /// within a few degrees of `direction`. Cost O(1).
   std::int32_t start_toward(const Eigen::Vector3d& direction) const { return starts_[cell_of(direction)]; }
 
-  /// Upper bound (metres) of the error of `support`. No corner is farther along the direction by more than this length.
-  /// The search can stop too early where rounding hides the difference between neighbors, as on narrow facets.
+  /// Upper bound (metres) of the error of `support`. Another corner may be farther along the direction than the result,
+  /// by at most this length. The search can stop too early where rounding hides the difference between neighbors, as on
+  /// narrow facets.
   double climbing_error() const { return climbing_error_; }
 
   /// The corner farthest along `direction`, found by examining all corners. Cost O(n).
@@ -135,9 +136,9 @@ enum class HullTest : std::uint8_t {
   kPerceptron,
 };
 
-/// Results of the last query of a pair of hulls, which speed up the next query. They do not change the answer, except
-/// where rounding leaves the answer undecided. Keep one `HullMemory` for each pair of objects, and always pass the two
-/// hulls in the same order. Not thread-safe.
+/// Results of the last query of a pair of hulls. They speed up the next query. They change its answer only where
+/// rounding leaves the answer undecided. Keep one `HullMemory` for each pair of objects, and always pass the two hulls
+/// in the same order. Not thread-safe.
 struct HullMemory {
   /// The separating plane, stored twice: once fixed to A (n_A, reach_A), once fixed to B (n_B, reach_B). Normals are
   /// unit vectors from A to B.
@@ -156,7 +157,7 @@ struct HullMemory {
   /// The last simplex of GJK. Each point has a corner of A and a corner of B.
   std::array<std::array<std::int32_t, 2>, 4> simplex{};
   std::int8_t simplex_count = 0;
-  std::int8_t planes_to_leave = 0;  ///< number of coming new planes that the test does not try to improve
+  std::int8_t planes_to_leave = 0;  ///< number of the next new planes that the test does not try to improve
   bool has_plane = false;
   bool by_centers = false;  ///< whether the last answer came from the line between the centres, after a large movement
   bool met = false;         ///< whether the last answer was that the hulls may meet

@@ -13,7 +13,7 @@
 /// - The distance is negative or not a number.
 /// - The pose is not finite.
 /// - The matrix R of the pose is a reflection.
-/// - The absolute entries of RᵀR − 1 add up to 1e-3 or more. Below 1e-3, a sum makes queries slower, but not less
+/// - The absolute values of the entries of RᵀR − 1 add up to 1e-3 or more. With a smaller sum, queries are slower, but
 ///   exact.
 
 #include <cstdint>
@@ -67,7 +67,7 @@ GLISSADE_EXPORT MeshDistance distance(const DopTree& tree_A, const DopTree& tree
 /// A translation that separates two meshes.
 struct Penetration {
   /// Translation of B in the frame of A (metres) after which the meshes are farther apart than the `clearance` given to
-  /// `find_way_out`. Zero if the meshes are already farther apart.
+  /// `find_way_out`. Zero if no translation is needed.
   Eigen::Vector3d way_out_A = Eigen::Vector3d::Zero();
 
   double depth() const { return way_out_A.norm(); }
@@ -77,13 +77,13 @@ struct Penetration {
 /// apart. A query at the translated pose confirms the result.
 ///
 /// Because of this confirmation, the depth is a guaranteed upper bound of the length of the shortest translation that
-/// separates the two surfaces. A shorter one may exist. The search tries directions of the whole sphere, the normals of
-/// intersecting triangles, the axes of both frames and the diagonals between the axes. Then the search refines the best
-/// direction to a few thousandths of a radian. Along axes and diagonals, the search finds the nearest free place,
-/// however small, such as the middle of a hole. Along other directions, the search may miss small free places. For
-/// convex bodies, the depth is within a few per cent of the least depth. Meshes are surfaces without an inside. So a
-/// body in a closed surface counts as apart unless it touches the surface, and the shortest way out of a shell may lead
-/// inward. Only the translated pose is tested. On the path to this pose, B may meet A or other objects.
+/// separates the two surfaces. A shorter translation may exist. The search tries directions of the whole sphere, the
+/// normals of intersecting triangles, the axes of both frames and the diagonals between the axes. Then the search
+/// refines the best direction to a few thousandths of a radian. Along axes and diagonals, the search finds the nearest
+/// free place, however small, such as the middle of a hole. Along other directions, the search may miss small free
+/// places. For convex bodies, the depth is within a few per cent of the least depth. Meshes are surfaces without an
+/// inside. So a body in a closed surface counts as apart unless it touches the surface, and the shortest way out of a
+/// shell may lead inward. Only the translated pose is tested. On the path to this pose, B may meet A or other objects.
 ///
 /// Deterministic. Cost: a few hundred queries, seldom more than a thousand. Throws in the same cases as the other
 /// queries.

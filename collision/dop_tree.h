@@ -93,7 +93,7 @@ class GLISSADE_EXPORT DopTree {
   /// Fits all DOPs to the present vertices. Call this after moving vertices of the mesh. The vertex indices of
   /// triangles must be unchanged. Queries stay exact, but become slower if triangles below a node have moved apart.
   /// Allocates nothing. Cost O(n log n). Throws std::invalid_argument for a coordinate that the constructor would
-  /// reject; the tree is then unchanged.
+  /// reject. The tree is then unchanged.
   void refit();
 
   const geometry::TriangleMesh& mesh() const { return *mesh_; }
@@ -148,8 +148,8 @@ class GLISSADE_EXPORT DopTree {
   double inverse_radius_ = 0.0;
 };
 
-// Cache files. A cache file next to a mesh file saves the building of the tree in every run: with
-// 100,000 triangles, building takes 102 ms of processor time, and reading 31 ms.
+// Cache files. A cache file next to a mesh file saves the building of the tree in every run: with 100,000 triangles,
+// building takes 102 ms of processor time, and reading takes 31 ms.
 //
 // A file holds only the shape of a tree, i.e. which triangles share a leaf, and which leaves and nodes share a parent.
 // `read_tree_cache` checks that the shape is one tree of all triangles, and fits the bounding volumes to the given

@@ -53,8 +53,8 @@ struct QueryCounters {
 };
 
 /// Receives the work of a query while the query runs. Called in the thread of the query, so a meter can report the
-/// progress of the query, or make the query wait. The unit is about a nanosecond on an ordinary processor. The work
-/// depends on the trees, on their poses and on what a coherent workspace remembers, but not on the speed of the
+/// progress of the query, or make the query wait. The unit of work is about a nanosecond on an ordinary processor. The
+/// work depends on the trees, on their poses and on what a coherent workspace remembers, but not on the speed of the
 /// machine. The work may differ a little between instruction sets, because conservative tests in single precision may
 /// keep different pairs.
 class GLISSADE_EXPORT WorkMeter {
@@ -149,7 +149,7 @@ class GLISSADE_EXPORT TriangleSelection {
 };
 
 /// Restricts a query to selected pairs of triangles. A null selection selects all triangles of its tree, so that every
-/// pair is a selected pair. Therefore a query is restricted only if neither selection is null.
+/// pair is a selected pair. Therefore a query is restricted only if both selections are given.
 struct PairSelection {
   const TriangleSelection* of_A = nullptr;
   const TriangleSelection* of_B = nullptr;

@@ -94,8 +94,7 @@ class GLISSADE_EXPORT World {
   /// groups are enabled for each other and the pair itself is not disabled. Initially, all groups and pairs are
   /// enabled. All four functions are symmetric, and `group_a` may equal `group_b`. `enable_pair` undoes `disable_pair`,
   /// but does not override groups. All four functions throw std::invalid_argument for a group outside 0 to 63 or a
-  /// stale id. The consumer may call `take` between `add` and `disable_pair`. So use groups for objects that must
-  /// never be compared.
+  /// stale id. A take may come between `add` and `disable_pair`. So use groups for objects that must never be compared.
   void enable_groups(int group_a, int group_b);
   void disable_groups(int group_a, int group_b);
   void enable_pair(ObjectId a, ObjectId b);
@@ -117,7 +116,7 @@ class GLISSADE_EXPORT World {
   /// of removed objects if no other owner holds them. The next call overwrites the result.
   const WorldChanges& take_changes();
 
-  /// The objects by slot, as of the last call of `take`; `capacity` entries.
+  /// The objects by slot, as of the last take; `capacity` entries.
   std::span<const WorldObject> objects() const;
 
   /// Whether the pair is enabled, as of the last take. Both slots must have objects. Cost O(1).

@@ -36,9 +36,9 @@ struct GLISSADE_EXPORT ContactBody {
   collision::ConvexHull hull;
   geometry::MeshTopology topology;
   /// `MeshTopology` assigns each edge and each vertex to one triangle, its owner. A triangle is selected if it owns a
-  /// vertex that can stop another body. A triangle is half selected if it owns an edge that can stop another body,
-  /// because an edge stops only edges and vertices. The selected pairs are the pairs for which
-  /// `MeshTopology::can_stop_each_other` is true.
+  /// vertex that can stop another body. An edge stops only edges and vertices, so a triangle that owns an edge that can
+  /// stop another body is half selected. The selected pairs are the pairs for which `MeshTopology::can_stop_each_other`
+  /// is true.
   collision::TriangleSelection features;
 
  private:

@@ -3,7 +3,7 @@
 /// Sliding contact of several parts at once (§3 of the founding paper, *Natural Interaction in Virtual Environments*).
 /// A hand or a script (poses given over time) holds each part. The ghost of a part is the pose that the part would have
 /// if nothing were in the way. Each visible part follows its ghost as closely as the obstacles and the other parts
-/// allow. If a part touches no other body at the start, it never penetrates one, at rest or in motion. If a part
+/// allow. A part that touches no other body at the start never penetrates another body, at rest or in motion. If a part
 /// touches or overlaps a body at the start, the part gets hardly any deeper into this body (see `OverlapRule`).
 ///
 /// The method is sequential projection with a margin and a certificate. A call consists of cycles. Each cycle finds the

@@ -48,9 +48,9 @@ enum class ProjectionStatus : std::uint8_t { kSolved, kInfeasible, kIterationLim
 
 inline constexpr std::size_t kMaxActive = 6;  ///< a displacement has six degrees of freedom
 
-/// `active` has the indices of the rows that hold with equality and push. `force` has the multiplier (newtons) of each
-/// active row. The multiplier is the row's share of K (ξ − ξ*), i.e. a force along the row's normal. `displacements` is
-/// valid only with kSolved.
+/// `active` has the indices of the active rows, i.e. the rows that hold with equality and push. `force` has the
+/// multiplier (newtons) of each active row. The multiplier is the row's share of K (ξ − ξ*), i.e. a force along the
+/// row's normal. `displacements` is valid only with kSolved.
 template <std::size_t kParts>
 struct Projection {
   ProjectionStatus status = ProjectionStatus::kSolved;

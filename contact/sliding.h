@@ -2,7 +2,7 @@
 
 /// Sliding contact of one part. The visible part follows the ghost as closely as the obstacles allow. The ghost is the
 /// pose that the part would have if nothing were in the way. A part that starts apart from all other bodies never
-/// enters another body, neither at rest nor on its path.
+/// enters another body, at rest or on its path.
 
 #include <chrono>
 #include <memory>

@@ -94,8 +94,8 @@ struct SlidingResult {
   SlidingState state = SlidingState::kFree;
   /// The contacts of the last cycle, for the part at X_WV_of_contacts. A contact pushes if its force is positive. With
   /// the paper's method or several parts, X_WV_of_contacts is X_WV. With several parts, contacts found before the last
-  /// step have been moved along with the parts. With one part, X_WV_of_contacts is X_WV except in three cases, in which
-  /// it is X_WV_before_step:
+  /// step have been moved along with the parts. With one part, X_WV_of_contacts is X_WV_before_step in the following
+  /// three cases, and X_WV in all other cases:
   /// - The last step was short.
   /// - No contact pushed.
   /// - The work budget of the call was used up.

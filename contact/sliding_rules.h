@@ -104,11 +104,11 @@ enum class OverlapRule : std::uint8_t {
   /// The part leaves the obstacle without turning, at kSlew_m (`spring.h`) per millisecond, whatever the hand does. The
   /// path is short and straight, and leads no deeper into any body. Other obstacles stop the part as usual. If the part
   /// overlaps several obstacles, it leaves the deepest overlap first. If there is no such path, or if the path is
-  /// blocked for twenty calls, the part follows the hand as far as this does not deepen the overlap. Once apart, part
-  /// and obstacle are an ordinary pair. The constructor still throws for:
+  /// blocked for twenty calls, the part follows the hand as far as the overlap does not become deeper. Once part and
+  /// obstacle are apart, they are an ordinary pair. The constructor still throws for:
   /// - a scripted part (see `HeldPart::script`)
   /// - a closed part that no inset (see `inset_mesh`) frees
-  /// - an open part that is free on no side within two margins
+  /// - an open part that no translation by up to two margins frees
   kDepenetrate,
 };
 
@@ -160,7 +160,7 @@ constexpr SlidingRules real_time_rules() {
   rules.has_search_thread = true;
   rules.contacts_ahead_ms = 6.0;
   rules.affordable_pairs = 3000;
-  rules.work_budget = 8'000'000;  // for ages of answers with and without it, see docs/benchmarks.md
+  rules.work_budget = 8'000'000;  // for the ages of answers with and without a budget, see docs/benchmarks.md
   return rules;
 }
 

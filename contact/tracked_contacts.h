@@ -48,8 +48,8 @@ struct TrackedContact {
 ///
 /// By case 2, a contact keeps its number when its point passes to the next triangle or edge of a flat or smooth face.
 /// When the point goes round a corner, a contact with a new number begins. If a new contact could continue several old
-/// contacts, three criteria select the old contact, in this order: it shares a feature with the new contact; it is the
-/// nearest; it is the oldest.
+/// contacts, three criteria select the old contact, in this order: a feature shared with the new contact, the least
+/// distance, and the greatest age.
 class GLISSADE_EXPORT ContactTracker {
  public:
   /// `margin` (metres) is the margin of the simulation (see `Sliding::margin`). If obstacles have margins of their own,

@@ -30,7 +30,7 @@ class GLISSADE_EXPORT EventLogWriter {
   /// Throws std::invalid_argument, naming the file, when it cannot be created.
   explicit EventLogWriter(const std::string& path);
 
-  /// Appends an event. `close` reports a failure.
+  /// Appends an event. If this fails, `close` reports the failure.
   void write(const LogEvent& event);
 
   /// Ends the log. Throws std::runtime_error, naming the file, when something could not be written, for example on a
@@ -84,7 +84,7 @@ struct LoggedState {
 GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, std::string channel,
                                   std::vector<std::uint8_t> message);
 
-/// Events with the same channel and message as on the bus.
+/// The event with the channel and message that the value has on the bus.
 GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, const GloveInfo& info);
 GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, const LoggedState& state);
 GLISSADE_EXPORT LogEvent to_event(std::chrono::nanoseconds time, const HapticState& state);

@@ -75,13 +75,13 @@ GLISSADE_EXPORT std::int32_t to_bits(const LimitReasons& reasons) noexcept;
 /// Ignores bits without a meaning.
 GLISSADE_EXPORT LimitReasons limit_reasons_from_bits(std::int32_t bits) noexcept;
 
-/// Stands for the absence of a limit, rad: beyond every joint's range, and finite for messages.
+/// The value (rad) of a limit that is absent. Beyond every joint's range, but finite, so that messages can carry it.
 inline constexpr double kNoLimit_rad = 6.0;
 
-/// A range of one joint, which the device holds in its own loop, at its own rate. Beyond the range, a spring and damper
-/// push back, at most with `max_torque`. They never pull. Within the range, the joint is free. A force over a slow link
-/// must be soft to be passive. A limit can be as stiff as the device's own loop permits, because only the limit crosses
-/// the link.
+/// A range of one joint's angle. The device holds the range in its own control loop, at its own rate. Beyond the range,
+/// a spring and damper push back with at most `max_torque`, and never pull. Within the range, the joint is free. A
+/// force over a slow link must be soft to be passive. A limit can be as stiff as the device's own loop permits, because
+/// only the limit crosses the link.
 struct JointLimit {
   double lower = -kNoLimit_rad;  ///< rad
   double upper = kNoLimit_rad;   ///< rad
@@ -95,13 +95,13 @@ struct JointLimit {
 /// The torque (Nm, positive toward larger angles) of a limit on a joint with this angle (rad) and rate (rad/s).
 GLISSADE_EXPORT double limit_torque(const JointLimit& limit, double angle, double rate) noexcept;
 
-/// The energy (J) that the spring of a limit stores with the joint at this angle (rad).
+/// The energy (J) that the spring of a limit stores while the joint is at this angle (rad).
 GLISSADE_EXPORT double stored_energy(const JointLimit& limit, double angle) noexcept;
 
 /// One limit per joint, in the order of `hands::kJointNames`.
 struct JointLimits {
   std::array<JointLimit, hands::kJoints> joints{};
-  /// A device that has heard nothing for so long opens all limits. The envelope sets it by the rate of the device.
+  /// A device that receives nothing for this time drops all limits. The envelope sets it by the rate of the device.
   std::chrono::nanoseconds expiry{std::chrono::milliseconds(10)};
 
   bool operator==(const JointLimits&) const = default;
@@ -113,35 +113,35 @@ struct JointLimits {
   }
 };
 
-/// A joint that turns together with others: by `way` (rad, either sign) while all of them go their whole way.
+/// One of several joints that turn together. It turns by its `way` (rad, either sign) while the others turn by theirs.
 struct JointWay {
   std::size_t joint;  ///< index in `hands::kJointNames`
   double way;
 };
 
-/// The share of their way that these joints, now at `angles` (rad), may go on together before a contact stops them. A
-/// limit is where its joint, if it turned alone, would close a contact. Joints that turn together close the contact
-/// earlier: when the shares of their limits that they have used up add to 1. Not positive if one is at its limit or
-/// beyond; infinite without limits.
+/// The fraction of their ways by which these joints, now at `angles` (rad), can turn together until a contact stops
+/// them. A joint's limit is the angle at which the joint, turning alone, would close the contact. Together, the joints
+/// close it earlier: when the covered fractions of their distances to the limits add up to 1. The result is not
+/// positive if a joint is at or beyond its limit, and infinite without limits.
 GLISSADE_EXPORT double way_left(std::span<const JointWay> joints, const JointLimits& limits,
                                 const hands::JointValues& angles) noexcept;
 
-/// Largest number of half-spaces in a command: at most six push at once, and two more may be next.
+/// Largest number of half-spaces in a command. At most six push at once. The other two may push next.
 inline constexpr std::size_t kMaxHalfSpaces = 8;
 
-/// The constraint n·(v + w × r) ≥ bound on a displacement of the hand: v (metres) of its reference point R, w (rad)
-/// about R. It stands for one contact of the part in the hand.
+/// The constraint n·(v + w × r) ≥ bound on a displacement of the hand: the translation v (metres) of its reference
+/// point R, and the rotation vector w (rad) about R. A half-space stands for one contact of the part in the hand.
 struct HalfSpace {
   Eigen::Vector3d n_W = Eigen::Vector3d::Zero();  ///< unit normal, from the obstacle to the part
   Eigen::Vector3d r_W = Eigen::Vector3d::Zero();  ///< from R to the contact point, metres
   double bound = 0.0;                             ///< metres; negative: the contact is still open
 };
 
-/// Half-spaces to which the device keeps the hand in its own loop, at its own rate. The displacement counts from the
-/// pose B of the hand. If it leaves a half-space, a spring and damper push the hand toward the nearest displacement
-/// that satisfies all half-spaces, nearest in the metric of the spring. They never pull, and are never stiffer than the
-/// spring, however many contacts push. The contacts are linear at B: exact for translations; a rotation by an angle a
-/// (rad) from B puts a contact at the distance r off by up to r a² / 2.
+/// Half-spaces in which the device keeps the displacement of the hand from the pose X_WB, in its own control loop, at
+/// its own rate. If the displacement leaves a half-space, a spring and damper push the hand toward the displacement
+/// that satisfies all half-spaces and is nearest in the metric of the spring. They never pull. However many contacts
+/// push, the stiffness never exceeds that of the spring. The half-spaces are exact for translations only: after a
+/// rotation by an angle a (rad), a contact at the distance r from R is off by up to r a² / 2.
 struct HalfSpaces {
   Eigen::Isometry3d X_WB = Eigen::Isometry3d::Identity();
   Eigen::Vector3d p_HR = Eigen::Vector3d::Zero();  ///< R in the frame of the hand, metres
@@ -149,11 +149,11 @@ struct HalfSpaces {
   std::size_t count = 0;              ///< rows in use
   double stiffness = 0.0;             ///< against translation of R, N/m
   double rotational_stiffness = 0.0;  ///< against rotation about R, Nm/rad
-  double damping = 0.0;               ///< N s/m; against rotation in the proportion of the two stiffnesses
-  /// Largest size of the wrench about R, N. The size is √(f² + t² K / K_r), with the stiffnesses K and K_r.
+  double damping = 0.0;               ///< N s/m; against rotation: times rotational_stiffness / stiffness
+  /// Largest size of the wrench about R, N. The size is √(f² + t² K / K_r), with the two stiffnesses K and K_r.
   double max_force = 0.0;
   double max_torque = 0.0;  ///< largest torque about the hand root, Nm; 0 for a device without torque
-  /// A device that has heard nothing for so long drops all half-spaces. The envelope sets it by the rate of the device.
+  /// A device that receives nothing for this time drops all half-spaces. The envelope sets it by the device's rate.
   std::chrono::nanoseconds expiry{std::chrono::milliseconds(10)};
 
   bool any() const noexcept { return count > 0 && stiffness > 0.0 && rotational_stiffness > 0.0 && max_force > 0.0; }
@@ -214,31 +214,31 @@ struct GloveCommand {
   /// Total energy (J) that independently moving bodies, such as a part in another hand, have given to this hand so far,
   /// minus the energy that they have requested back, plus the hand's work against withheld force. When `supply` rises,
   /// force and torque are allowed to give the hand the same amount of energy. When `supply` falls, the hand gives up as
-  /// much of this amount as it can spare (`GloveState::taken`).
+  /// much of the difference as it can spare (`GloveState::taken`).
   double supply = 0.0;
 
-  /// Whether neither forces nor limits nor half-spaces act.
+  /// Whether no force, no limit and no half-space acts.
   bool is_at_rest() const noexcept {
     return f_H_W.isZero(0.0) && t_H_W.isZero(0.0) && joint_torques == hands::JointValues{} && !joint_limits.any() &&
            !half_spaces.any();
   }
 };
 
-/// What the fingers of a device take. Messages carry the number.
+/// The kind of command that the fingers of a device take. Messages carry the number of the kind.
 enum class FingerCommand : std::int32_t {
   kTorque = 0,      ///< a torque for each joint
   kJointLimit = 1,  ///< a limit for each joint, which the device holds in its own loop
-  kCurlLimit = 2,   ///< a limit for the flexion of each finger; its driver makes it of the joint limits
-  kBrake = 3,       ///< a resistance for each finger; its driver makes it of the joint limits
+  kCurlLimit = 2,   ///< a limit for the flexion of each finger; the driver derives it from joint limits
+  kBrake = 3,       ///< a resistance for each finger; the driver derives it from joint limits
 };
 
 /// Number of kinds; their values run from 0 to kFingerCommands − 1.
 inline constexpr std::int32_t kFingerCommands = 4;
 
-/// What the hand root of a device takes. Messages carry the number.
+/// The kind of command that the hand root of a device takes. Messages carry the number of the kind.
 enum class ToolCommand : std::int32_t {
   kWrench = 0,      ///< a force and a torque
-  kHalfSpaces = 1,  ///< half-spaces, which the device holds in its own loop, and no wrench
+  kHalfSpaces = 1,  ///< half-spaces instead of a wrench; the device holds them in its own loop
 };
 
 /// Number of kinds; their values run from 0 to kToolCommands − 1.
@@ -283,14 +283,14 @@ struct DeviceDescriptor {
   hands::JointValues joint_upper{};    ///< upper limits of the joint angles
   double update_rate = 1000.0;         ///< updates per second
   FingerCommand finger_command = FingerCommand::kTorque;
-  // Of a device that takes limits of its fingers:
+  // Only for a device whose fingers take limits:
   double limit_rate = 0.0;                  ///< updates per second of the device's own loop; 0: `update_rate`
   std::chrono::nanoseconds limit_delay{0};  ///< from measurement to torque in this loop, in addition to its period
   double max_limit_stiffness = 0.0;         ///< largest stiffness of a limit rendered without shaking, Nm/rad
-  /// Joints without an actuator: they are measured, but no torque and no limit is for them.
+  /// Joints without an actuator. The device measures them, but takes no torque and no limit for them.
   std::bitset<hands::kJoints> undriven_joints{};
   ToolCommand tool_command = ToolCommand::kWrench;
-  // Of a device that takes half-spaces:
+  // Only for a device that takes half-spaces:
   double tool_rate = 0.0;                  ///< updates per second of the device's own loop; 0: `update_rate`
   std::chrono::nanoseconds tool_delay{0};  ///< from measurement to force in this loop, in addition to its period
 
@@ -308,11 +308,12 @@ GLISSADE_EXPORT void validate(const DeviceDescriptor& descriptor);
 
 /// The lag (seconds) of a torque or force over the link behind the motion, for a loop with `period` and a link with
 /// `link_delay`. The lag is half a period, because the force is held for a period, plus the delays of device and link.
-/// Of the periods of loop and device, the longer one counts.
+/// The period is the longer of those of loop and device.
 GLISSADE_EXPORT double lag_of(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
                               std::chrono::nanoseconds link_delay) noexcept;
 
-/// The same for what the hand root takes: for half-spaces, it is the lag of the device's own loop, whatever the link.
+/// Like `lag_of`, for the hand root. For half-spaces, the result is the lag of the device's own loop, whatever the
+/// link.
 GLISSADE_EXPORT double tool_lag(const DeviceDescriptor& descriptor, std::chrono::nanoseconds period,
                                 std::chrono::nanoseconds link_delay) noexcept;
 
@@ -321,12 +322,13 @@ GLISSADE_EXPORT double tool_lag(const DeviceDescriptor& descriptor, std::chrono:
 /// `own_lag`, the lag without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
 GLISSADE_EXPORT double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
 
-/// The stiffness (Nm/rad) of the limits that the device holds in its own loop, with its joint damping and friction:
-/// passive for a finger up to 0.5 rad/s. A faster finger may get energy in a stroke. 0 for a device that takes torques.
+/// The largest stiffness (Nm/rad) of limits that the device can hold in its own loop. With the device's joint damping
+/// and friction, this stiffness is passive for a finger of up to 0.5 rad/s. A faster finger may gain energy. 0 if the
+/// device takes torques.
 GLISSADE_EXPORT double passive_limit_stiffness(const DeviceDescriptor& descriptor) noexcept;
 
-/// The damping (Nm s/rad) of the limits of this stiffness that the device holds passively: what the stiffness leaves of
-/// the joint damping. 0 if the joint damping is not known.
+/// The largest damping (Nm s/rad) with which the device holds limits of this stiffness passively: the joint damping
+/// that the stiffness does not need. 0 if the joint damping is not known.
 GLISSADE_EXPORT double passive_limit_damping(const DeviceDescriptor& descriptor, double stiffness) noexcept;
 
 /// The largest rate (Nm/s) of change of a joint torque.

@@ -1,7 +1,7 @@
 #pragma once
 
 /// The numbers of a simulated device and its wearer's fingers: mechanics, sensors, servo loop and link. Presets
-/// describe devices of the market. All numbers are in SI units: N, Nm, rad, s, Hz, kg m².
+/// describe devices on the market. All numbers are in SI units: N, Nm, rad, s, Hz, kg m².
 
 #include <array>
 #include <chrono>
@@ -47,21 +47,21 @@ enum class FingerKind {
 };
 
 /// The wearer's finger joints. A joint is a spring and damper between the finger and the wearer's intended angle.
-/// `stiffness` is that of the relaxed finger. It grows linearly with the grip (Höppner et al., Task dependency of grip
-/// stiffness, 2013): with the voluntary grip of a closed hand, and with the grip of the reflex, which follows the load
-/// of the joint with two latencies.
+/// `stiffness` is that of the relaxed finger. The stiffness grows linearly with the grip (Höppner et al., Task
+/// dependency of grip stiffness, 2013). The grip is the sum of a voluntary grip and the grip of a reflex. The reflex
+/// follows the load of the joint with two latencies.
 struct FingerWearerModel {
   double stiffness = 0.04;      ///< Nm/rad; MCP joints have 0.033 to 0.047 (PMC7775510)
   double damping_time = 0.048;  ///< damping over stiffness, s; a hand at a handle: 6.45 N s/m over 135 N/m (srep18004)
   /// Stiffness per grip, (Nm/rad)/Nm. Chosen so that a grip of 0.2 Nm makes a stiffness of about 0.5 Nm/rad.
   double stiffness_per_grip = 2.5;
   double grip = 0.2;              ///< torque of each joint by which a closed hand holds, Nm; about 2 N at a fingertip
-  double open_grip = 0.05;        ///< the same of an open hand, which moves its fingers against friction, Nm; chosen
-  double reflex_gain = 0.5;       ///< grip of the reflex over the load; chosen
+  double open_grip = 0.05;        ///< the same for an open hand, which moves its fingers against friction, Nm; assumed
+  double reflex_gain = 0.5;       ///< grip of the reflex over the load; assumed
   double short_latency = 0.0346;  ///< s, of the first half of the reflex (PubMed 12898103)
   double long_latency = 0.0598;   ///< s, of the second half (PubMed 12898103)
-  /// Root mean square of the tremor of the intended angle, rad: about 0.1 mm at a fingertip, of 15 to 254 µm
-  /// (PMC3032442).
+  /// Root mean square of the tremor of the intended angle, rad. It is about 0.1 mm at a fingertip. Measured tremors are
+  /// 15 to 254 µm (PMC3032442).
   double tremor = 0.001;
   double tremor_lowest = 6.0;    ///< lowest frequency of the tremor, Hz (PMC4594250)
   double tremor_highest = 12.0;  ///< highest frequency of the tremor, Hz (PMC4594250)
@@ -83,7 +83,7 @@ struct ActuatorModel {
   double bandwidth = 100.0;       ///< cut-off frequency of the torque, a first-order lag, Hz
 };
 
-/// The device's own loop. It measures the actuator's angle, and finds its rate from two measurements.
+/// The device's own loop. It measures the actuator's angle, and computes the rate of this angle from two measurements.
 struct ServoModel {
   double rate = 1000.0;        ///< Hz
   double delay = 0.0;          ///< from measurement to torque, in addition to the period, s
@@ -91,7 +91,7 @@ struct ServoModel {
   double max_stiffness = 0.0;  ///< largest stiffness of a limit rendered without shaking, Nm/rad
 };
 
-/// The strings of a curl-limit device. A string stops the sum of a finger's flexion angles, and never pushes.
+/// The strings of a curl-limit device. A string limits the sum of a finger's flexion angles, and never pushes.
 struct StringModel {
   double stiffness = 3.0;  ///< torque of each joint per excess of the sum, Nm/rad
   double damping = 0.002;  ///< Nm s/rad
@@ -145,24 +145,25 @@ GLISSADE_EXPORT void validate(const GloveModel& model);
 /// The descriptor that the device announces, with the true numbers of the model. The model must be valid.
 GLISSADE_EXPORT DeviceDescriptor descriptor_of(const GloveModel& model);
 
-/// The fingers of a wearer in the device of a model, without the device's own loop: an emulated firmware drives the
-/// motors or the strings. Integrated at 8 kHz, deterministic. Allocates only at construction.
+/// The fingers of a wearer in the device of a model. An emulated firmware, in place of the device's own loop, drives
+/// the motors or the strings. Integrated at 8 kHz, deterministic. Allocates only at construction.
 class GLISSADE_EXPORT DrivenFingers {
  public:
   /// A number for each finger, from the thumb to the little finger.
   using PerFinger = std::array<double, 5>;
 
-  /// Starts at rest at `angles` (rad). Fingers of kind `kJointLimit` take torques of motors, those of kind `kCurlLimit`
-  /// take strings. Throws what `validate` throws; std::invalid_argument for other kinds.
+  /// Starts at rest at `angles` (rad). Motors drive fingers of kind `kJointLimit`. Strings limit fingers of kind
+  /// `kCurlLimit`. Throws what `validate` throws, and std::invalid_argument for other kinds.
   DrivenFingers(const GloveModel& model, const hands::JointValues& angles);
   ~DrivenFingers();
 
   /// The torques of the motors (Nm at the joints) from now on.
   void set_torques(const hands::JointValues& torques) noexcept;
-  /// From now on, the servos of the strings move to where a string is taut at this sum of flexion angles (rad).
+  /// From now on, the servo of each string moves to the position at which this sum of flexion angles (rad) tightens the
+  /// string.
   void set_strings(const PerFinger& taut_sums) noexcept;
 
-  /// Advances by `dt`. `aims` are the angles (rad) that the wearer, whose hand grips or is open, intends.
+  /// Advances by `dt`. `aims` are the angles (rad) that the wearer intends. `is_closed`: the hand grips.
   void advance(std::chrono::nanoseconds dt, const hands::JointValues& aims, bool is_closed) noexcept;
 
   const hands::JointValues& angles() const noexcept;           ///< of the fingers, rad

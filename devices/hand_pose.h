@@ -1,6 +1,6 @@
 #pragma once
 
-/// The pose of a hand from a tracker of its own, over LCM on the channel HAND_POSE: for gloves that measure the fingers
+/// The pose of a hand from a separate tracker, over LCM on the channel HAND_POSE. For gloves that measure the fingers
 /// only. Frames: W world, T tracker.
 
 #include <atomic>
@@ -28,12 +28,12 @@ struct TrackedPose {
   std::chrono::nanoseconds time{0};  ///< of the measurement, on a monotonic clock of the sender
   bool is_valid = true;              ///< false while the tracker does not see the hand
   Eigen::Isometry3d X_WT = Eigen::Isometry3d::Identity();
-  bool has_velocity = false;                       ///< whether the tracker measures the next two
+  bool has_velocity = false;                       ///< whether the tracker measures v_WT and w_WT
   Eigen::Vector3d v_WT = Eigen::Vector3d::Zero();  ///< velocity of the origin of T, in world axes; m/s
   Eigen::Vector3d w_WT = Eigen::Vector3d::Zero();  ///< angular velocity of T, in world axes; rad/s
 };
 
-/// The tracker's end.
+/// The tracker's end of the link.
 class GLISSADE_EXPORT HandPosePublisher {
  public:
   /// For the glove with the number `device`. Throws std::invalid_argument when the bus is null.
@@ -50,22 +50,22 @@ class GLISSADE_EXPORT HandPosePublisher {
 
 struct HandPoseOptions {
   std::int64_t device = 1;  ///< number in the messages; poses with other numbers are ignored
-  double rate_Hz = 60.0;    ///< poses per second of the tracker, at least
-  /// Another tracker with the same number is heard after the first one has been silent for so long.
+  double rate_Hz = 60.0;    ///< poses that the tracker sends per second, at least
+  /// Poses of another tracker with the same number are accepted after the first tracker has been silent for this time.
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
 };
 
-/// The glove's end. Finds velocities from two poses if the tracker does not measure them. The clock of the sender may
-/// be that of another machine: as for states, the fastest message so far gives the difference of the clocks.
+/// The glove's end of the link. Computes velocities from two poses if the tracker does not measure them. The sender may
+/// use the clock of another machine. The message with the shortest delay so far gives the difference of the clocks.
 class GLISSADE_EXPORT HandPoseSource {
  public:
   /// Throws std::invalid_argument when the bus is null or cannot receive, or the rate is outside 1 to 100,000 Hz.
   HandPoseSource(std::shared_ptr<LcmBus> bus, const HandPoseOptions& options);
   ~HandPoseSource();
 
-  /// Writes the newest pose and its velocities into `state`, whose time is on the clock of this process. The time of
-  /// the state becomes that of the older measurement, so a pose that does not come lets the force fade like a state
-  /// that does not come. Returns false, and leaves `state` unchanged, before the first pose. Wait-free, one thread.
+  /// Writes the newest pose and its velocities into `state`. The time of `state`, on the clock of this process, becomes
+  /// that of the older measurement. So the force fades if poses are missing, as it does if states are missing. Before
+  /// the first pose, returns false and leaves `state` unchanged. Wait-free, one thread.
   bool join(GloveState& state) noexcept;
 
   /// Time of the newest pose, on the clock of this process; no value before the first pose. Any thread.

@@ -1,7 +1,7 @@
 #pragma once
 
-/// The state for viewers and recorders after one haptic tick, i.e. after one cycle of the 1 kHz loop that computes the
-/// forces, and its publisher. A part is an object that hands move. Frames: W world; V visible part, i.e. the displayed
+/// The state after one haptic tick, for viewers and recorders, and its publisher. A tick is one cycle of the 1 kHz loop
+/// that computes the forces. A part is an object that hands move. Frames: W world; V visible part, i.e. the displayed
 /// pose of the part; G ghost, i.e. the pose that the part would have if nothing were in the way.
 
 #include <array>
@@ -93,8 +93,8 @@ struct HapticHandState {
 };
 
 /// The energy (J) that force and torque may still give to the hand. If the glove's states report this energy, returns
-/// the value of the envelope at the glove, whose limit takes effect. Otherwise returns the value of the envelope at the
-/// server.
+/// the value of the envelope at the glove, because its limit applies. Otherwise returns the value of the envelope at
+/// the server.
 inline double energy_left(const HapticHandState& hand) noexcept {
   return hand.command_age > std::chrono::nanoseconds(0) ? hand.glove_energy : hand.energy;
 }

@@ -7,7 +7,7 @@
 /// processes and hosts by UDP multicast. With `ttl=0`, as in `udpm://239.255.76.67:7667?ttl=0`, messages stay on this
 /// machine, and the bus receives only messages of this machine. With a greater ttl, the bus receives only messages that
 /// arrive on the interface to which this machine routes the multicast group. Other LCM programs (`lcm-logger`,
-/// `lcm-spy`) can join. The bus accepts only messages that arrive in one packet; it drops fragments.
+/// `lcm-spy`) can join. The bus accepts only messages that arrive in one packet, and drops fragments.
 
 #include <array>
 #include <cstdint>
@@ -72,8 +72,8 @@ class GLISSADE_EXPORT LcmBus {
   /// channel without subscribers is lost. Throws std::invalid_argument when the channel's name is not allowed.
   bool publish(const std::string& channel, std::span<const std::uint8_t> message);
 
-  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, if it is not
-  /// an unfragmented LCM message, or if it has no valid code for the bus's key. Any thread.
+  /// Number of packets dropped so far. A packet is dropped if it came from another machine or interface, if it is a
+  /// fragment or no LCM message, or if it has no valid code for the bus's key. Any thread.
   std::uint64_t refused_packets() const noexcept;
 
  private:
@@ -97,8 +97,8 @@ class GLISSADE_EXPORT LcmBus::Subscription {
 /// The field that caused a message to be rejected.
 struct RefusedField {
   std::string_view name{};       ///< as in the message's type, or in `DeviceDescriptor`; empty: no field
-  int index = -1;                ///< in an array; −1: the field is none
-  double value = 0.0;            ///< in the message
+  int index = -1;                ///< index in the array; −1: the field is no array
+  double value = 0.0;            ///< value of the field in the message
   std::optional<double> wanted;  ///< the only value that is allowed, if there is only one
   bool is_norm = false;          ///< whether `value` is the norm of the array
 };
@@ -115,7 +115,7 @@ struct LinkStatistics {
   std::uint64_t other_sender = 0;     ///< messages of a sender that does not hold the lease
   std::uint64_t out_of_sequence = 0;  ///< messages whose sequence number does not rise, or rises too fast
   std::uint64_t lost = 0;             ///< sequence numbers that are missing between accepted messages
-  RefusedField first_wrong_size{};    ///< of the first message of each of these kinds
+  RefusedField first_wrong_size{};    ///< the field in the first message that was rejected for this reason
   RefusedField first_wrong_version{};
   RefusedField first_not_finite{};
   RefusedField first_out_of_range{};

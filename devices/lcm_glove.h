@@ -124,19 +124,19 @@ struct LcmGloveHostOptions {
   double patience_periods = 6.0;
   std::chrono::nanoseconds lease{std::chrono::milliseconds(500)};
   std::optional<Calibration> calibration{};    ///< without a value, the device's angles are those of the hand
-  std::optional<HandPoseOptions> hand_pose{};  ///< where the hand is; without a value, the device measures it
+  std::optional<HandPoseOptions> hand_pose{};  ///< the hand's tracker; without a value, the device measures the pose
 };
 
 /// The glove driver's end of the link. It announces the glove on GLOVE_INFO, sends states on GLOVE_STATE, and receives
 /// commands on GLOVE_COMMAND. At this end, a second envelope limits each command. The driver passes states as the
-/// device measures them. The host adds the pose of a tracker and applies the calibration, before the envelope and the
-/// server get the state, and turns commands back into angles of the device. Thread-safety: one thread, the driver's,
+/// device measures them. Before the envelope and the server get a state, the host adds the pose of a tracker and
+/// applies the calibration. It also converts commands to angles of the device. Thread-safety: one thread, the driver's,
 /// calls `publish` and `newest_command`.
 class GLISSADE_EXPORT LcmGloveHost {
  public:
-  /// `descriptor` is that of the bare device. Throws std::invalid_argument when the bus is null or cannot receive; the
-  /// descriptor is not valid; the calibration is not for this device (`check_calibration`); or a device that exerts
-  /// force or torque on the hand is to get its pose from a tracker.
+  /// `descriptor` is that of the bare device. Throws std::invalid_argument in these cases: the bus is null or cannot
+  /// receive; the descriptor is not valid; the calibration is not for this device (`check_calibration`); or a device
+  /// that exerts force or torque on the hand is to get its pose from a tracker.
   LcmGloveHost(std::shared_ptr<LcmBus> bus, const DeviceDescriptor& descriptor,
                const LcmGloveHostOptions& options = {});
   ~LcmGloveHost();

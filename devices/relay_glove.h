@@ -17,20 +17,20 @@ namespace glissade::devices {
 
 /// The driver's thread publishes states and takes commands. The haptic thread reads states and hands over commands. As
 /// in `LcmGloveHost`, a second envelope limits each command at the driver's end. So the force fades if the server is
-/// late, stops or ends, and returns softly, whatever either thread does. The delay of the round trip counts as that of
-/// a link: the coupling gets softer by it.
+/// late, stops or ends, and returns softly, whatever either thread does. The delay of the round trip counts as the
+/// delay of a link, and makes the coupling softer.
 ///
 /// Thread-safety: one driver's thread and one haptic thread. Progress: all functions except the constructor are
 /// wait-free and allocate nothing. The glove must outlive its server.
 class GLISSADE_EXPORT RelayGlove final : public GloveDevice {
  public:
-  /// Throws what `validate` throws for the descriptor. `clock` is the clock of the server; null is the steady clock of
-  /// the system. The clock must outlive the glove.
+  /// Throws what `validate` throws for the descriptor. `clock` is the clock of the server; null means the steady clock
+  /// of the system. The clock must outlive the glove.
   explicit RelayGlove(const DeviceDescriptor& descriptor, const realtime::Clock* clock = nullptr);
 
-  /// Driver: makes `measured` the newest state. Its time is that of the measurement, on any monotonic clock. The glove
-  /// numbers the states, and adds what its envelope has done with the last command: the driver leaves `sequence`,
-  /// `limits`, `command_age`, `link_delay`, `energy`, `taken` and `obeys_another` as they are.
+  /// Driver: makes `measured` the newest state. `GloveState::time` is the time of the measurement, on any monotonic
+  /// clock. The glove numbers the states, and adds the envelope's results for the last command. So the driver leaves
+  /// `sequence`, `limits`, `command_age`, `link_delay`, `energy`, `taken` and `obeys_another` as they are.
   void publish(const GloveState& measured) noexcept;
 
   /// Driver: the command for the device in this period. Call this function once a period, after `publish`. The force is

@@ -55,49 +55,51 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 
 /// An envelope protects each device. A link has an envelope at the server's end and another at the glove's end. A
 /// device in the server's process has a single envelope. The envelope remembers the last command and the last state, so
-/// call it once a period.
+/// call `limit` once a period.
 ///
-/// Ages count from the measurement times in the states. The clocks of glove and caller may differ. The fastest message
-/// so far gives the difference of the clocks, which is allowed to grow by 0.2 ms/s. The difference is determined anew
-/// in two cases: all states within a second are late although their times advance; or the glove's clock goes back.
+/// Ages count from the measurement times in the states. The clocks of glove and caller may differ. The message with the
+/// shortest delay so far gives the difference of the clocks. The difference may grow by 0.2 ms/s. The difference is
+/// determined anew in two cases: all states within a second are late although their times advance; or the glove's clock
+/// goes back.
 ///
 /// A passivity observer computes the work of force and torque on the hand from the measured motion and the commands
 /// after all limits. A command counts from the delay of the device on until the next command acts, for at most max(10
 /// ms, two periods). The available energy is 0.1 J at the start (for sampling errors), plus what the hand has put in,
 /// minus what it has got back. Its maximum is about 0.25 m times the largest force. Joint torques do not count. The
-/// wrench is a continuous function of energy and velocity. The remaining energy must suffice to let the wrench fall to
-/// zero like that of a spring that the device renders passively (derivation: docs/safety.md). At the end of a contact,
-/// the energy falls to at most 0.1 J. Energy below 0.1 J, or below the need of the wanted wrench, recovers: at 0.3 W
-/// without a contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All recovery
-/// draws on a budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the envelope
-/// at the glove's end limits the energy. So no delay and no error of the simulation can sustain a fast oscillation that
-/// pushes both ways and gives more than 60 mW, and a hand at rest feels no jump. Source of the observer: Hannaford and
-/// Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the energy in a
-/// tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a two-layer
-/// approach combining passivity and transparency, 2011.
+/// wrench is a continuous function of energy and velocity. The remaining energy must suffice for the wrench to fall to
+/// zero like that of a passive spring (derivation: docs/safety.md). At the end of a contact, the energy falls to at
+/// most 0.1 J. If the energy is below 0.1 J, or below what the wanted wrench needs, it recovers: at 0.3 W without a
+/// contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All recovery draws on a
+/// budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the envelope at the
+/// glove's end limits the energy. With these rules, no delay and no error of the simulation can sustain a fast
+/// oscillation that pushes both ways and gives more than 60 mW. A hand at rest feels no jump. Source of the observer:
+/// Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the
+/// energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a
+/// two-layer approach combining passivity and transparency, 2011.
 ///
-/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy for this. A rise of `supply`,
-/// times the exerted share of the wanted wrench, counts as energy that the hand has put in, at no more than the
-/// device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy above 0.1 J, and
-/// only the part that the wanted wrench does not need. So no force shrinks. The rest of the request decays with a time
-/// constant of 1 s. `SafeCommand::taken` is the energy given up. After an interruption or a change of the sender,
-/// `taken` restarts at 0, and the difference from the earlier `supply` does not count.
+/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy that they give. A rise of
+/// `supply`, times the exerted share of the wanted wrench, counts as energy that the hand has put in, at a rate of at
+/// most the device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy above 0.1
+/// J, and only the part that the wanted wrench does not need. So the force does not shrink. The rest of the request
+/// decays with a time constant of 1 s. `SafeCommand::taken` is the energy given up. After an interruption or a change
+/// of the sender, `taken` restarts at 0, and the difference from the earlier `supply` does not count.
 ///
-/// A link delay does not make commands old if the whole round trip takes at most 150 ms: the delay that three of four
-/// commands keep (`link_delay`) is subtracted from the age of each command. No command older than 150 ms acts.
+/// The delay that three of four commands do not exceed (`link_delay`) is subtracted from the age of each command. So a
+/// link delay does not make commands old if the whole round trip takes at most 150 ms. No command older than 150 ms
+/// acts.
 ///
-/// Force and torque have separate maxima, so that a device without torque still gives its force. But the axis of the
-/// wrench moves when one of them is at its maximum. The power limit scales force and torque by the same factor.
+/// Force and torque have separate maxima, so that a device without torque still gives its force. However, the axis of
+/// the wrench moves while one of the two is at its maximum. The power limit scales force and torque by the same factor.
 ///
-/// Limits that the device holds by itself (`JointLimits`) tighten no faster than torques rise. When they move against a
-/// finger, their springs gain no more energy than 20 mJ and what other limits have given up, plus 5 mW (0.2 W at rest).
-/// Half-spaces (`HalfSpaces`) change no faster than force and torque do. What their springs gain when they move against
-/// the hand, they take from the available energy.
+/// Limits that the device holds by itself (`JointLimits`) tighten no faster than torques rise. When limits move against
+/// a finger, their springs gain at most the sum of 20 mJ, the energy that other limits have given up, and 5 mW over
+/// time (0.2 W while all fingers rest). Half-spaces (`HalfSpaces`) change no faster than force and torque. The energy
+/// that their springs gain when they move against the hand is taken from the available energy.
 ///
-/// Force, torques and limits fade within seven periods and return within 200 ms. Both take longer if the rate in the
-/// descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their rates bring
-/// them to zero within 15 periods, because the hand could draw energy from a force that falls too slowly. Not
-/// thread-safe. Real-time safe: no allocation, no lock, no system call.
+/// Force, torques and limits fade within seven periods and return within 200 ms. Fade and return take longer if the
+/// rate in the descriptor is lower than `max_force` in seven periods. Force and torque are kept so small that their
+/// maximum rates bring them to zero within 15 periods, because the hand could draw energy from a force that falls too
+/// slowly. Not thread-safe. Real-time safe: no allocation, no lock, no system call.
 class GLISSADE_EXPORT SafetyEnvelope {
  public:
   /// States and commands older than `patience_periods` periods count as old. A period is the longer of the periods of
@@ -110,9 +112,9 @@ class GLISSADE_EXPORT SafetyEnvelope {
   ~SafetyEnvelope();
 
   /// The command for this period: `wanted`, reduced as far as the descriptor and the reasons demand. `wanted` answers
-  /// one of the last states. `newest` is the newest state; `now` is a time on the caller's clock. Sequences and times
-  /// are those of `wanted`. Each call changes the force by at most its rate times min(time since the last call, two
-  /// periods).
+  /// one of the last states. `newest` is the newest state, and `now` is a time on the caller's clock. The result has
+  /// the sequences and times of `wanted`. Each call changes the force by at most its rate times min(time since the last
+  /// call, two periods).
   SafeCommand limit(const GloveCommand& wanted, const GloveState& newest, std::chrono::nanoseconds now) noexcept;
 
   /// Whether the newest state and the states of the last tenth of a second are finite and plausible. Afterwards,

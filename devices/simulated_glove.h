@@ -56,7 +56,7 @@ struct SimulatedGloveParameters {
   /// friction of glove and finger together.
   double finger_time_constant = 0.05;
   hands::JointValues grasp_posture{};  ///< joint angles to which the wearer's fingers return; rad
-  /// Joint angles of the open hand. Without a value, the hand lets go, and its fingers stay where they are.
+  /// Joint angles of the open hand. Without a value, the fingers stay where they are when the hand lets go.
   std::optional<hands::JointValues> open_posture{};
   /// Joint angles over the time of the script. If there are entries, they replace the grasp posture and the open
   /// posture. Otherwise, the grip selects one of the two postures.
@@ -85,8 +85,8 @@ class GLISSADE_EXPORT SimulatedGlove {
   /// ms; or the times of the fingers do not ascend.
   explicit SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters = {});
 
-  /// A device of this model. The dampings of the arm, and those of the fingers if they have dynamics, are those of the
-  /// model instead of `parameters`. Throws the same, and what `validate` throws for the model.
+  /// A device of this model. The model, not `parameters`, determines the damping of the arm and, if the fingers have
+  /// dynamics, of the fingers. Throws what the other constructor throws, and what `validate` throws for the model.
   SimulatedGlove(geometry::PoseTrajectory script_X_WH, const SimulatedGloveParameters& parameters,
                  const GloveModel& model);
 
@@ -97,14 +97,14 @@ class GLISSADE_EXPORT SimulatedGlove {
 
   const DeviceDescriptor& descriptor() const noexcept { return descriptor_; }
 
-  /// The newest measured state that has left the link of the model, if there is a model. The initial state has sequence
-  /// 0 and the first time of the script.
+  /// The newest measured state. With a model, the newest state that has passed the link of the model. The initial state
+  /// has sequence 0 and the first time of the script.
   const GloveState& state() const noexcept { return state_; }
 
   /// The true state of the hand, at the present time. Without a model, it is the measured state.
   const GloveState& true_state() const noexcept { return truth_; }
 
-  /// What the link of the model has lost so far.
+  /// Numbers of messages that the link of the model has lost so far.
   LinkLosses link_losses() const noexcept;
 
   /// The torques (Nm) that the device exerts on the finger joints, at the present time.

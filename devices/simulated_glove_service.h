@@ -27,12 +27,12 @@ class WearersView;
 /// server is slow, stops when the parts stand still, and waits for at most three seconds.
 class GLISSADE_EXPORT SimulatedGloveService {
  public:
-  /// Receives the new state and the command that led to this state, in each period, in the thread of the service. The
-  /// first result false lets the force fade and stay at zero.
+  /// Receives the new state and the command that led to this state, in each period, in the thread of the service. After
+  /// the first result false, the force fades and stays at zero.
   using Observer = std::function<bool(const GloveState&, const SafeCommand&)>;
 
-  /// If the wearer does not wait for a server, the script follows the clock from the start on. Throws
-  /// std::invalid_argument when the bus is null or cannot receive. The clock must outlive the service.
+  /// If `waits_for_server` is false, the script follows the clock from the start on. Throws std::invalid_argument when
+  /// the bus is null or cannot receive. The clock must outlive the service.
   SimulatedGloveService(const std::shared_ptr<LcmBus>& bus, SimulatedGlove glove, realtime::Clock& clock,
                         const LcmGloveHostOptions& options = {}, Observer observer = {}, bool waits_for_server = true);
   ~SimulatedGloveService();
@@ -49,7 +49,7 @@ class GLISSADE_EXPORT SimulatedGloveService {
 
   /// Greatest norm of all commanded forces, N. Valid after `stop`.
   double greatest_force() const noexcept { return greatest_force_; }
-  /// What the link of the glove's model has lost. Valid after `stop`.
+  /// Numbers of messages that the link of the glove's model has lost. Valid after `stop`.
   LinkLosses link_losses() const noexcept;
   /// Statistics of the messages from the server. Any thread.
   LinkStatistics link_statistics() const noexcept { return host_.statistics(); }

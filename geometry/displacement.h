@@ -58,13 +58,13 @@ GLISSADE_EXPORT double fraction_within(const Displacement& d, double radius, dou
 /// - For a larger defect, for a reflection, and for a coordinate of p that is not finite or beyond ±1e9 m, the result
 ///   is std::nullopt.
 ///
-/// So the rotation of every result has a defect below 1e-12, and error bounds derived for rotations apply to it. Cost:
+/// So the rotation of every result has a defect below 1e-12, and error bounds for rotations apply to the result. Cost:
 /// about ten nanoseconds.
 GLISSADE_EXPORT std::optional<Eigen::Isometry3d> rigid_pose(const Eigen::Isometry3d& X) noexcept;
 
-/// The defect δ: the sum of the absolute entries of RᵀR − 1, where 1 is the identity matrix. The defect is 0 for an
-/// exact rotation or reflection. The defect is an upper bound of every common norm of RᵀR − 1. The defect is not finite
-/// if R has an entry that is not finite.
+/// The defect δ: the sum of the absolute values of the entries of RᵀR − 1, where 1 is the identity matrix. The defect
+/// is 0 for an exact rotation or reflection. The defect is an upper bound of every common norm of RᵀR − 1. The defect
+/// is not finite if R has an entry that is not finite.
 inline double rotation_defect(const Eigen::Matrix3d& R) {
   const Eigen::Vector3d x = R.col(0);
   const Eigen::Vector3d y = R.col(1);

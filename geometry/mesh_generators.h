@@ -7,7 +7,7 @@
 /// the number of triangles deviates from `triangle_count` by at most 25 %. All vertices lie on the surface, and
 /// adjacent triangles share vertices. Triangles are oriented consistently. The triangles of closed surfaces face
 /// outward (exception: see `make_revolution`). Every function except `make_revolution` throws std::invalid_argument for
-/// a size that is not positive and finite or a count outside 1 ... 50,000,000. The message has the argument and value.
+/// a size that is not positive and finite, or a count outside 1 ... 50,000,000. The message has the argument and value.
 
 #include <cstdint>
 #include <span>

@@ -14,9 +14,9 @@ namespace glissade::geometry {
 
 /// An imported mesh, and counts of the changes that the import made.
 struct ImportedMesh {
-  TriangleMesh mesh;                      ///< from `import_mesh`: welded, without degenerate triangles
-  std::int64_t degenerate_triangles = 0;  ///< triangles without area, left out of `mesh`
-  bool closed_by_degenerate = false;      ///< whether the mesh with the omitted triangles has exactly two at every edge
+  TriangleMesh mesh;                       ///< from `import_mesh`: welded, without degenerate triangles
+  std::int64_t degenerate_triangles = 0;   ///< triangles without area, left out of `mesh`
+  bool closed_by_degenerate = false;       ///< whether, with the omitted triangles, each edge has exactly two triangles
   std::int64_t polygons_triangulated = 0;  ///< faces of more than three corners in the file
   /// Sentences about items that were skipped or missing, at most one sentence for each kind of item. Example: "2 faces
   /// have fewer than 3 corners and are left out (the first: line 21)."

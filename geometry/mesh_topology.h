@@ -1,8 +1,8 @@
 #pragma once
 
 /// Edges and vertices of a mesh, the triangles that meet at them, and features. Features are the edges and vertices
-/// that can make contact constraints. Also a report of the size and defects of a mesh. The orientation of triangles is
-/// not used, so meshes exported from CAD are suitable.
+/// that can make contact constraints. `report` counts the elements and defects of a mesh. The orientation of triangles
+/// is not used, so meshes exported from CAD are suitable.
 
 #include <array>
 #include <cstdint>

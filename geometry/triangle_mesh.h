@@ -49,7 +49,7 @@ GLISSADE_EXPORT TriangleMesh transformed(const TriangleMesh& mesh_B, const Eigen
 /// equal meshes. Tests use this function to check that nothing in this library depends on the orientation of triangles.
 GLISSADE_EXPORT TriangleMesh flip_randomly(const TriangleMesh& mesh, std::uint64_t seed);
 
-/// Merges vertices at identical positions; 0 and -0 count as identical. Keeps all triangles, including degenerate
+/// Merges vertices at identical positions (0 and -0 count as identical). Keeps all triangles, including degenerate
 /// triangles, in their order. Drops vertices that no triangle uses. Numbers the other vertices in the order of first
 /// use.
 GLISSADE_EXPORT TriangleMesh weld(const TriangleMesh& mesh);
@@ -60,10 +60,10 @@ GLISSADE_EXPORT Eigen::AlignedBox3d bounds_of(const TriangleMesh& mesh);
 /// Indices of the triangles with all three corners in the box, in ascending order.
 GLISSADE_EXPORT std::vector<std::int32_t> triangles_inside(const TriangleMesh& mesh, const Eigen::AlignedBox3d& box);
 
-/// Makes the given triangles (indices in ascending order) degenerate. Degenerate triangles take part in no query. All
-/// other triangles keep their indices. Use this function if a part in its final position overlaps an obstacle by
-/// design. Then remove those triangles of the obstacle that bend out of the way in reality, such as the spring tongues
-/// in the slot of a car radio.
+/// Makes the given triangles (indices in ascending order) degenerate, i.e. of zero area, so that they take part in no
+/// query. All other triangles keep their indices. Use this function if a part in its final position overlaps an
+/// obstacle by design. Then remove those triangles of the obstacle that bend out of the way in reality, such as the
+/// spring tongues in the slot of a car radio.
 GLISSADE_EXPORT TriangleMesh without_triangles(const TriangleMesh& mesh, std::span<const std::int32_t> triangles);
 
 }  // namespace glissade::geometry

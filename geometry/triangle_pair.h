@@ -18,10 +18,10 @@ namespace glissade::geometry {
 /// The three corners of a triangle, all in one frame.
 using TrianglePoints = std::array<Eigen::Vector3d, 3>;
 
-/// Whether a triangle has no area because its three points lie on one line. Exact.
+/// Whether the three points of a triangle lie on one line, so that it has no area. The test is exact.
 GLISSADE_EXPORT bool is_degenerate(const TrianglePoints& triangle);
 
-/// Whether two closed triangles share a point. Exact for the given coordinates. Triangles that touch share a point.
+/// Whether two closed triangles share a point, as triangles that touch do. The test is exact for the given coordinates.
 /// Coplanar pairs, shared edges and shared vertices need no special treatment. `a` must not be degenerate. `b` may be
 /// degenerate, for example by rounding in a transformation. A degenerate `b` counts as the segment or point that its
 /// corners span.

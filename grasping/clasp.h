@@ -24,7 +24,7 @@ enum class ClaspState : std::uint8_t {
   /// The chain has not been free since the start, since a motion of the cart, or since an object was placed where the
   /// chain is. The posture stays the same, and there are no forces. The clasp begins once the target is free.
   kWaiting,
-  kLost,  ///< the track is lost (`lose_track`); like `kWaiting`, until the next target
+  kLost,  ///< the tracker has lost the hand (`lose_track`); else like `kWaiting`, until the next target
 };
 
 GLISSADE_EXPORT std::string_view name_of(ClaspState state);
@@ -36,12 +36,12 @@ struct ClaspRules {
   /// lies deeper in the object than the link. For an obstacle with a greater margin of its own, `touching` is increased
   /// by the difference of the margins.
   double touching = 0.1e-3;
-  /// The greatest number of steps in a call. Each step is proven free. With more steps, the chain follows a fast hand
-  /// more closely.
+  /// The greatest number of steps in a call. Each step is proven collision-free. With more steps, the chain follows a
+  /// fast hand more closely.
   int most_steps = 8;
   /// Work after which a call takes no further step, in the unit of `contact::SlidingRules::work_budget`. The next call
   /// continues after the last step. A step that has begun is always completed. If a call takes no step, one flex value
-  /// may still try to move alone. Positive; none: no limit.
+  /// (`FlexValue`) may still try to move alone. Positive; std::nullopt means no limit.
   std::optional<std::int64_t> work_budget{};
 };
 
@@ -78,9 +78,10 @@ class GLISSADE_EXPORT Clasp {
 
   /// Places an object without a check. The caller must know that the object has touched nothing on its path.
   void place_free_object(std::size_t object, const Eigen::Isometry3d& X_WB);
-  /// Places, without a check, a chain that moves with the object that it holds. The caller must know that the chain
-  /// has touched nothing on its path. A placed root is at its target, which is not deeper. So in the next call of
-  /// `advance`, a link near an object touches this object unless the link's target leads away from the object.
+  /// Places, without a check, a chain that moves with the object that it holds. The caller must know that the chain has
+  /// touched nothing on its path. The root is then at its target, so the targets of its links need not lie deeper in
+  /// the object than the links. Therefore, in the next call of `advance`, a link near an object touches this object
+  /// unless the link's target leads away from the object.
   void carry(const Posture& posture);
 
   /// Moves the chain towards the target. Flex values beyond a limit are set to the limit. If the target is not finite,
@@ -95,8 +96,8 @@ class GLISSADE_EXPORT Clasp {
   /// Call this function when the target is not known. Nothing touches until the next call of `advance`.
   void forget_contacts();
 
-  /// Moves the chain with the user's cart, even through obstacles. The clasp waits until a target is free. Ignores a
-  /// posture that is not finite.
+  /// Moves the chain with the user's cart (a vehicle that takes the user to another place), even through obstacles. The
+  /// clasp waits until a target is free. Ignores a posture that is not finite.
   void move_cart(const Posture& target);
 
   ClaspState state() const;
@@ -111,7 +112,7 @@ class GLISSADE_EXPORT Clasp {
   const std::vector<LinkContact>& contacts() const;
   /// The postures at the ends of the steps of the last call. From each posture to the next, the root moves along a line
   /// and rotates at a constant rate about its origin, and the flex values change at constant rates. This motion is
-  /// proven free.
+  /// proven collision-free.
   std::span<const Posture> way() const;
 
  private:

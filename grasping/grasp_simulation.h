@@ -35,21 +35,21 @@ struct GraspRules {
   Eigen::Vector3d up_W = Eigen::Vector3d::UnitZ();  ///< of unit length, against gravity
 };
 
-/// The target of a hand with fingers. If the caller sets the holds, also the part attached to the palm. Once the caller
-/// has called `GraspSimulation::take_part`, this part follows its own ghost.
+/// The target of a hand with fingers. If the caller sets the holds, i.e. decides which hand holds which part, the
+/// target also has the part in the hand. After `GraspSimulation::take_part`, this part follows its own ghost.
 struct HandTarget {
   std::optional<Posture> posture{};   ///< the tracked posture; none while the tracking is lost
   std::optional<std::size_t> part{};  ///< number of the part in the hand
 };
 
-/// The decision of the simulation which part a hand should hold. If the caller sets the holds, as a haptic thread does,
-/// the caller must follow this decision.
+/// The decision of the simulation on the part that a hand should hold. If the caller sets the holds, as a haptic thread
+/// does, the caller must follow this decision.
 struct HoldDecision {
   std::optional<std::size_t> part{};
   std::int64_t number = 0;  ///< increases whenever the simulation decides on another part
 };
 
-/// Loose parts stand still where a hand left them; nothing falls. Deterministic. Not thread-safe.
+/// Loose parts stand still where a hand left them. Nothing falls. Deterministic. Not thread-safe.
 ///
 /// A hand takes hold of a part when `GraspAnalysis` finds a grasp. From then on the palm and the part are one rigid
 /// body, which follows the tracked palm by sliding contact. The hand stays clasped round the visible part, wherever the
@@ -93,9 +93,9 @@ class GLISSADE_EXPORT GraspSimulation {
   /// Whether the part is held. Without hands, parts are held from the start.
   bool is_led(std::size_t part) const;
 
-  /// The user's cart carries the hand to this posture, even through obstacles. The hand lets go of its part, and waits
-  /// until a target is free. If `posture` is not finite or has a wrong number of values, the hand's posture stays the
-  /// same.
+  /// The user's cart (`Clasp::move_cart`) carries the hand to this posture, even through obstacles. The hand lets go of
+  /// its part, and waits until a target is free. If `posture` is not finite or has a wrong number of values, the hand's
+  /// posture stays the same.
   void move_cart(std::size_t hand, const Posture& posture);
 
   std::size_t hand_count() const;

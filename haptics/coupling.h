@@ -68,8 +68,8 @@ GLISSADE_EXPORT Coupling coupling_within_limits(const devices::DeviceDescriptor&
 /// The damper's wrench on the hand, for the velocity v_W of the ghost's reference point (m/s) and the angular velocity
 /// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So the damper does
 /// not brake a translation perpendicular to the contact normals. The damper's force never exceeds the force of the
-/// contacts, and its torque never exceeds their torque. So the damper sets in smoothly at a new contact, and contacts
-/// and damper together never pull the hand towards a contact that the hand leaves.
+/// contacts, and its torque never exceeds their torque. So the damper sets in smoothly at a new contact. Contacts and
+/// damper together never pull the hand towards a contact that the hand leaves.
 GLISSADE_EXPORT contact::Wrench damper_wrench(const CouplingDamping& damping, const contact::Wrench& contacts,
                                               const Eigen::Vector3d& v_W, const Eigen::Vector3d& w_W);
 

@@ -41,30 +41,31 @@ GLISSADE_EXPORT FingerHand finger_hand(const grasping::HandModel& hand);
 
 /// The stiffness (Nm/rad) of the spring at each glove joint. At full stiffness, the spring reaches `max_joint_torque`
 /// at a depth of 0.8 degrees, so a finger that presses with a smaller torque stops within this angle. Three bounds may
-/// lower it. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of the loop
-/// (at least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove does not
-/// report its `joint_damping`, b is the smallest damping with which the full stiffness is passive if the link adds no
-/// delay. The second is r / (6 rad/s), because a torque with a maximum rate of r Nm/s (`devices::joint_torque_rate`)
-/// lags behind a quickly tapping finger and would make it rattle. The third is twice the joint's Coulomb friction
-/// divided by the step of the measured angles, because nothing damps a finger within a step. Real-time safe.
+/// lower the stiffness. The first is the passive stiffness b / (T/2 + t_d), with the joint's damping b, the period T of
+/// the loop (at least that of the device), and the delay t_d of device and link (`passive_stiffness`). If the glove
+/// does not report its `joint_damping`, b is the smallest damping with which the full stiffness is passive if the link
+/// adds no delay. The second is r / (6 rad/s), because a torque with a maximum rate of r Nm/s
+/// (`devices::joint_torque_rate`) lags behind a quickly tapping finger and would make it rattle. The third is twice the
+/// joint's Coulomb friction divided by the step of the measured angles, because nothing damps a finger within a step.
+/// Real-time safe.
 GLISSADE_EXPORT double finger_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                         std::chrono::nanoseconds link_delay) noexcept;
 
 /// `lags` (rad) are the joint angles of the glove minus those of the visible hand. If the lag of a joint closes the gap
-/// of a contact, this joint must go back, at most to the visible hand. Computes by least squares how far (rad) all such
-/// joints of the contact must go back to leave it, and raises `depths` to these values. The torques of one contact are
-/// the gradient of a convex energy in the closing joints. These joints together are no stiffer than each joint alone,
-/// and softer if an arm is shorter than 2 mm. If a joint has several contacts, the greatest depth counts, so n joints
-/// may be stiffer by (1 + √n) / 2. Real-time safe: O(joints²) at worst.
+/// of a contact, this joint must go back, at most to the visible hand. Computes, by least squares, how far (rad) all
+/// such joints must go back until the contact opens, and raises `depths` to these angles. The torques of one contact
+/// are the gradient of a convex energy in the closing joints. These joints together are no stiffer than each joint
+/// alone, and softer if a lever arm is shorter than 2 mm. If a joint has several contacts, the greatest depth counts,
+/// so n joints may be stiffer by the factor (1 + √n) / 2. Real-time safe: O(joints²) at worst.
 GLISSADE_EXPORT void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
-/// Computes the joint torques of a glove whose hand clasps an object. Springs push back each joint whose motion from
-/// the visible hand's posture to the glove's goes deeper into a contact, as far as `deepen` says. All other joints get
-/// exactly zero torque.
+/// Computes the joint torques of a glove whose hand clasps an object. If the motion of a joint from the visible hand's
+/// posture to the glove's goes deeper into a contact, a spring pushes the joint back. The deflection of the spring is
+/// the depth that `deepen` computes. All other joints get exactly zero torque.
 ///
-/// The torque is continuous in the posture of the glove. Contacts that push at an arm of less than 2 mm about a joint's
-/// axis count less, down to zero. If a wearer's joint presses with τ Nm (at most the largest torque), the joint rests τ
-/// / stiffness deeper than the visible hand.
+/// The torque is continuous in the posture of the glove. Contacts whose lever arm about a joint's axis is less than 2
+/// mm count less, down to zero. If a joint of the wearer presses with τ Nm (at most the largest torque), it rests τ /
+/// stiffness (rad) deeper than the visible hand.
 ///
 /// There is no damper, because gloves measure no rates, only angles, often in coarse steps. The bounds of the stiffness
 /// take this into account.

@@ -80,7 +80,7 @@ struct HandTick {
   double contact_share = 1.0;       ///< allowed share of the contact force; see `HapticHandState::contact_share`
   bool is_unsolved = false;         ///< the contacts have no solution, so their wrench goes towards zero
   /// Wrench of contacts, pull and damper about the hand root, limited by the safety envelope. A device that takes
-  /// half-spaces gets those of the contacts instead, without friction and pull. Zero without a state.
+  /// half-spaces gets the half-spaces of the contacts instead, without friction and pull. Zero without a state.
   devices::SafeCommand command;
 };
 

@@ -70,11 +70,11 @@ struct HapticServerStatistics {
 class GLISSADE_EXPORT HapticServer {
  public:
   /// Starts both threads. Devices and simulation must outlive the server. A hand grasps its part when the first state
-  /// of its device arrives; the part stays where it is. A part that no hand holds and no script moves lies still and is
-  /// an obstacle. The coupling is the result of `coupling_for` with the descriptor of the device and the stiffness of
-  /// the simulation. The simulation should use `contact::real_time_rules`. Throws std::invalid_argument if a device is
-  /// null, if the period is out of bounds, or if there are fewer devices than hands in the simulation. Also throws what
-  /// the constructors of `HapticKernel` and `realtime::PeriodicThread` throw.
+  /// of its device arrives. Grasping does not move the part. A part that no hand holds and no script moves lies still
+  /// and is an obstacle. The coupling is the result of `coupling_for` with the descriptor of the device and the
+  /// stiffness of the simulation. The simulation should use `contact::real_time_rules`. Throws std::invalid_argument if
+  /// a device is null, if the period is out of bounds, or if there are fewer devices than hands in the simulation. Also
+  /// throws what the constructors of `HapticKernel` and `realtime::PeriodicThread` throw.
   HapticServer(const std::vector<HandInLoop<devices::GloveDevice>>& hands, grasping::GraspSimulation& simulation,
                HapticServerOptions options = {});
   HapticServer(const HapticServer&) = delete;
@@ -103,7 +103,7 @@ class GLISSADE_EXPORT HapticServer {
   /// The first 255 bytes of the exception's message. Valid once `has_failed` returns true.
   std::string failure() const { return failure_.data(); }
 
-  /// The force fades and stays at zero; the loop goes on. Wait-free, any thread.
+  /// The force fades and stays at zero, but the loop goes on. Wait-free, any thread.
   void emergency_stop() noexcept { emergency_.store(true, std::memory_order_relaxed); }
 
   /// Number of counted ticks so far. Wait-free, any thread.
@@ -117,8 +117,8 @@ class GLISSADE_EXPORT HapticServer {
   /// Blocks for `longest`, or until the server is done or has failed. Then stops the server. If the server has failed,
   /// throws std::runtime_error with the message of `failure`.
   void run_for(std::chrono::nanoseconds longest);
-  /// Like `run_for`, but without a time limit. Throws std::invalid_argument if `HapticServerOptions::ticks` is 0.
-  /// As long as no device sends a state, it returns only if the server fails.
+  /// Like `run_for`, but without a time limit. Throws std::invalid_argument if `HapticServerOptions::ticks` is 0. As
+  /// long as no device sends a state, the function returns only if the server fails.
   void wait();
 
   /// Lets the force fade and stops both threads. May block for some ticks and one call of the simulation.

@@ -61,7 +61,7 @@ class GLISSADE_EXPORT Replay {
 
   /// Takes the next event of the recording. Repeats the tick of a HAPTIC_TICK event and the answer of a CONTACT_SET
   /// event. Compares events on the other channels of a recording with the results of the last tick. Ignores all other
-  /// channels. Returns false if the run differs from the recording up to here; `difference` then says where and how.
+  /// channels. Returns false if the run differs from the recording up to here. `difference` then says where and how.
   /// Because the simulation computes the answers in another thread, `take` may return true for an event that differs. A
   /// later call of `take` or `settle` then returns false. Rethrows exceptions of the simulation.
   bool take(devices::LogEvent event);

@@ -4,7 +4,7 @@
 ///
 /// The scheduling rule is as follows. The deadlines form a fixed grid, start + k · period. A tick counts as late when
 /// it starts at or after the deadline that follows its own deadline. After each tick, the next deadline is the first
-/// later one that is in the future or less than one period in the past. The loop skips and counts the deadlines in
+/// later deadline that is in the future or less than one period in the past. The loop skips and counts the deadlines in
 /// between. So ticks never run in bursts, and the loop never drifts. After an overrun, the next tick starts at once.
 ///
 /// Between ticks, the loop sleeps until the absolute time of the next deadline. The sleep ends late, because the system

@@ -28,11 +28,11 @@ struct TimeShare {
   std::chrono::nanoseconds window{std::chrono::milliseconds(10)};
 };
 
-/// The parts of the time for which threads other than the haptic thread have their priority. The kernel stops all
+/// The shares of time in which threads other than the haptic thread have their priority. The kernel stops all
 /// SCHED_FIFO threads of a processor, including the haptic thread, if they compute for nearly all of a second (by
 /// default 0.95 s, see `sched_rt_runtime_us`). With one glove, the shares add up to 0.9 of one processor.
 ///
-/// A link has a long window: after a stall, it must send what waits. If it lost its priority then, more would wait.
+/// A link has a long window. After a stall, it must send all waiting messages. Without priority, more would wait.
 inline constexpr TimeShare kLinkShare{0.15, std::chrono::milliseconds(100)};  ///< of each thread that receives or sends
 inline constexpr TimeShare kSimulationShare{0.4};
 inline constexpr TimeShare kSearchShare{0.2};  ///< of a thread that searches for contacts
@@ -56,8 +56,8 @@ GLISSADE_EXPORT bool may_lock_memory() noexcept;
 
 /// Locks all present and future memory of this process, so that no thread waits for a page. The system neither swaps
 /// pages out nor defers their allocation to the first access, and the heap keeps freed memory. The whole stack of each
-/// thread, by default 8 MiB, then occupies memory. Returns whether the system granted the lock. If not, nothing has
-/// changed. Programs should call this function at their start. Any thread may call it.
+/// thread, by default 8 MiB, then occupies memory. Returns whether the system granted the lock. Without the lock,
+/// nothing has changed. Programs should call this function at their start. Any thread may call it.
 GLISSADE_EXPORT bool lock_memory() noexcept;
 
 /// What the system granted to a thread.

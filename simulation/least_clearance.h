@@ -1,8 +1,8 @@
 #pragma once
 
 /// The least distance of a run: the smallest distance, over all its poses, between a part and the other bodies of its
-/// scene. Neighboring poses share their work: while the part cannot have come nearer than the least distance so far,
-/// there is no search.
+/// scene. Successive poses share work: a search is made only if the part may have come nearer than the least distance
+/// so far.
 
 #include <cstdint>
 #include <limits>
@@ -27,15 +27,16 @@ struct ClearanceWork {
 };
 
 /// Not thread-safe. The distance is that of the features (`geometry::MeshTopology`) of the meshes, so a vertex inside a
-/// flat face or a straight rim is not measured separately. (Inside: except for rounding.)
+/// flat face or a straight rim (inside up to rounding) is not measured separately.
 ///
-/// Each body keeps the pairs of triangles that were near the part in its last search. While the part moves relative to
-/// the body, a clock adds up how far any point has moved at most. A pair that was d metres apart is still apart by d
-/// less the time since on this clock, and the same holds for all pairs that the search left out.
+/// For each body, the object keeps the pairs of triangles that the last search found near the part. A sum adds up the
+/// motion bounds of the part relative to the body. If a pair was d metres apart in the search, it is still apart by at
+/// least d minus the growth of this sum since then. The same holds for the pairs that the search left out, with the
+/// search distance as d.
 class GLISSADE_EXPORT LeastClearance {
  public:
-  /// In radii of the part. Clearances from here on are not looked for: they would take long where almost all pairs of
-  /// triangles are as near as the nearest.
+  /// Limit of the measured clearances, in radii of the part. At greater distances, almost all pairs of triangles are
+  /// about as near as the nearest, so a search would take long.
   static constexpr double kFarthest = 10.0;
 
   /// For the part with the number `part`. `bodies` must outlive this object. Hands do not count. Throws
@@ -43,20 +44,20 @@ class GLISSADE_EXPORT LeastClearance {
   explicit LeastClearance(const SceneBodies& bodies, std::size_t part = 0);
 
   /// Adds the next pose of the part. `moving_X_WB` has the poses of the other parts, and then of the objects that move
-  /// on their own, in their order in the scene. `contacts` of the part, at this pose or near it, save work: their
-  /// triangles are near. Throws std::invalid_argument if `moving_X_WB` has the wrong number of poses. Cost: mostly that
-  /// of the pairs of triangles that come as near as the least distance so far.
+  /// on their own, in their order in the scene. `contacts` are contacts of the part at this pose or near it. They save
+  /// work, because their triangles are near. Throws std::invalid_argument if `moving_X_WB` has the wrong number of
+  /// poses. Most of the cost is for pairs of triangles that come as near as the least distance so far.
   void note(const Eigen::Isometry3d& X_WV, std::span<const Eigen::Isometry3d> moving_X_WB,
             std::span<const contact::Contact> contacts);
   /// Adds the present poses of a simulation of these bodies.
   void note(const Simulation& simulation);
 
-  /// To be called after the last pose, before the results are read.
+  /// Call this function after the last pose, before you read the results.
   void finish();
 
   /// Metres, up to rounding. Infinite if nothing was nearer than ten times the radius of the part.
   double least() const { return least_ < farthest() ? least_ : std::numeric_limits<double>::infinity(); }
-  /// Number of a pose with the least distance, from 0.
+  /// Number (from 0) of a pose with the least distance.
   std::int64_t least_at() const { return least_at_; }
 
   const ClearanceWork& work() const { return work_; }

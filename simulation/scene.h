@@ -162,7 +162,7 @@ struct GLISSADE_EXPORT SceneBodies {
   std::vector<std::string> body_names;        ///< by number of the body
   std::optional<Eigen::Isometry3d> X_WGoal;   ///< goal pose of the first part
 
-  /// Number of the part with this name; std::nullopt if no part has it.
+  /// Number of the part with this name; std::nullopt if no part has this name.
   std::optional<std::size_t> part_number(const std::string& name) const;
   /// The names of all parts, in quotes, for messages.
   std::string part_names() const;

@@ -22,7 +22,7 @@ namespace glissade::simulation {
 
 /// A scene in motion. Without hands, the caller leads the parts: each part follows its ghost, i.e. the pose that the
 /// part would have if nothing were in the way. Hands with fingers grasp parts by touch and lead them. Bodies are
-/// numbered as in `SceneBodies`; parts and hands are numbered as in the scene. Deterministic. Not thread-safe.
+/// numbered as in `SceneBodies`. Parts and hands are numbered as in the scene. Deterministic. Not thread-safe.
 class GLISSADE_EXPORT Simulation {
  public:
   /// Throws std::invalid_argument for a scene without movable objects. Also throws what `bodies_of` and the constructor

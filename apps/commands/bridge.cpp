@@ -7,10 +7,9 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kBridgeFooter =
-    "A bridge joins a device to the link between gloves and haptic servers: the server ('glissade run') sees a glove\n"
-    "as any other. The bridge opens the port again when the device was unplugged. It lets go of the hand when it "
-    "ends\n"
-    "or is killed.\n"
+    "A bridge connects a device to the link between gloves and haptic servers. For the server ('glissade run'), the\n"
+    "device is a glove like any other. If the device is unplugged, the bridge opens the port again when the device is\n"
+    "back. If the bridge ends or is killed, the device lets go of the hand.\n"
     "\n"
     "Examples:\n"
     "  glissade bridge opengloves --list\n"
@@ -20,7 +19,7 @@ constexpr const char* kBridgeFooter =
 }  // namespace
 
 void add_bridge_command(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("bridge", "Join a device of one's own to the haptic server");
+  CLI::App* command = app.add_subcommand("bridge", "Connect a real device to the haptic server");
   command->require_subcommand(1);
   command->footer(kBridgeFooter);
   add_bridge_dynamixel(*command, chosen);

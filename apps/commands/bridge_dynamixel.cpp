@@ -18,19 +18,17 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kDynamixelBridge = "Join a glove of Dynamixel servos, such as the DOGlove";
+constexpr const char* kDynamixelBridge = "Connect a glove of Dynamixel servos, such as the DOGlove";
 
 constexpr const char* kDynamixelBridgeFooter =
-    "The port leads to a bus of servos XL330 or XC330, such as /dev/ttyUSB0. A YAML file says which servo drives "
-    "which\n"
-    "joint, and where the joint is at 0; --preset doglove is such a file for the DOGlove. Its zero angles differ from\n"
-    "glove to glove: copy bridges/presets/doglove.yaml of the sources, hold the hand flat, and write what --check "
-    "shows.\n"
-    "Each servo holds the limit of its joint in its own loop, so a finger stops at objects of 'glissade run "
-    "--fingers'.\n"
-    "The torque of the servos is off while a finger is free, and when the server or the bridge is silent. A second\n"
-    "process turns it off if the bridge is killed. The hand stays at --position-m and --orientation-wxyz, or goes\n"
-    "with a tracker, see --pose-from.\n"
+    "The port, such as /dev/ttyUSB0, leads to a bus of XL330 or XC330 servos. A YAML file (--config) says which servo\n"
+    "drives which joint, and at which servo angle the joint angle is 0. --preset doglove is such a file for the\n"
+    "DOGlove. The zero angles differ from glove to glove. To adapt them, copy bridges/presets/doglove.yaml of the\n"
+    "sources, hold the hand flat, and write into the copy the angles that --check shows. Each servo holds the limit\n"
+    "of its joint in its own loop, so a finger stops at objects of 'glissade run --fingers'. The torque of a servo is\n"
+    "off while its finger is free, and while the server or the bridge is silent. If the bridge is killed, a second\n"
+    "process turns the torques off. The hand stays at --position-m and --orientation-wxyz, or follows a tracker\n"
+    "(--pose-from).\n"
     "\n"
     "Examples, with an emulated glove:\n"
     "  glissade bridge dynamixel --list\n"
@@ -38,9 +36,8 @@ constexpr const char* kDynamixelBridgeFooter =
     "dynamixel --preset doglove --port servos --board-port board --seconds 4\n"
     "A hand closes round the ball, and its fingers stop there:\n"
     "  glissade emulate dynamixel --preset doglove --link servos --board-link board & glissade bridge dynamixel "
-    "--preset "
-    "doglove --port servos --board-port board --position-m -0.095 0 0.1 & glissade run ball_and_tray.yaml --fingers "
-    "--seconds 8";
+    "--preset doglove --port servos --board-port board --position-m -0.095 0 0.1 & glissade run ball_and_tray.yaml "
+    "--fingers --seconds 8";
 
 struct DynamixelBridge {
   BridgeOptions bridge;

@@ -14,17 +14,15 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kHaplyBridge = "Join an Inverse3 of Haply, with or without a VerseGrip";
+constexpr const char* kHaplyBridge = "Connect an Inverse3 of Haply, with or without a VerseGrip";
 
 constexpr const char* kHaplyBridgeFooter =
-    "The bridge talks to Haply's Inverse Service, from version 3.1 on, which must run: on this machine, or at\n"
-    "--service. --list shows its devices. The tip of the arm is a hand without fingers. A VerseGrip turns the hand. "
-    "The\n"
-    "hand is closed, and holds the nearest part, while a button of the VerseGrip is pressed. Without a VerseGrip, the\n"
-    "hand is always closed.\n"
-    "The device is at --position-m and --orientation-wxyz: its X axis points to the right, Y forward and Z up, and "
-    "its\n"
-    "origin is at the mounting plate.\n"
+    "The bridge talks to Haply's Inverse Service, version 3.1 or later. The service must run on this machine, or at\n"
+    "the address --service. --list shows the devices of the service. The tip of the arm is a hand without fingers. A\n"
+    "VerseGrip gives the orientation of the hand. The hand is closed, and holds the nearest part, while a button of\n"
+    "the VerseGrip is pressed. Without a VerseGrip, the hand is always closed.\n"
+    "--position-m and --orientation-wxyz give the pose of the device. Its X axis points to the right, Y forward and Z\n"
+    "up. Its origin is at the mounting plate.\n"
     "The service lets go of the hand when the bridge is silent, ends or is killed. See docs/devices.md in the "
     "sources.\n"
     "\n"

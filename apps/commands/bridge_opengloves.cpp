@@ -14,25 +14,25 @@ namespace glissade::apps {
 
 namespace {
 
-constexpr const char* kOpenGlovesBridge = "Join a glove with the firmware of LucidGloves, or another OpenGloves glove";
+constexpr const char* kOpenGlovesBridge =
+    "Connect a glove with the firmware of LucidGloves, or another OpenGloves glove";
 
 constexpr const char* kOpenGlovesBridgeFooter =
-    "The port is a serial port such as /dev/ttyUSB0 (USB) or /dev/rfcomm0 (Bluetooth), or tcp:HOST for a glove in the\n"
-    "network (port 65432, or tcp:HOST:PORT). The bridge finds the encoding, 'alpha' or 'legacy', by itself. The glove\n"
-    "measures the fingers only: the hand stays at --position-m and --orientation-wxyz, or goes with a tracker, see\n"
-    "--pose-from. After its start, the firmware scales its numbers to what it has seen, so open and close all fingers\n"
-    "once.\n"
+    "--port is a serial port such as /dev/ttyUSB0 (USB) or /dev/rfcomm0 (Bluetooth). For a glove in the network, it\n"
+    "is tcp:HOST (with the TCP port 65432) or tcp:HOST:PORT. The bridge finds the encoding, 'alpha' or 'legacy', by\n"
+    "itself. The glove measures the fingers only, so the hand stays at --position-m and --orientation-wxyz, or\n"
+    "follows a tracker (--pose-from). The firmware scales its numbers to the range that it has seen since its start,\n"
+    "so open and close all fingers once.\n"
     "The fingers stop where an object stops the visible hand of 'glissade run --fingers'. There is no force on the\n"
-    "hand. The servos are released when the server, the glove's states or the bridge are silent, or the bridge ends,\n"
-    "even if it is killed. See docs/devices.md in the sources.\n"
+    "hand. The servos are released if the server, the glove or the bridge is silent, and if the bridge ends or is\n"
+    "killed. See docs/devices.md in the sources.\n"
     "\n"
     "Examples, with an emulated glove:\n"
     "  glissade emulate opengloves --link glove_port --seconds 4 & glissade bridge opengloves --port glove_port "
     "--seconds 4\n"
     "A hand closes round the ball, and its fingers stop there:\n"
     "  glissade emulate opengloves --link glove_port & glissade bridge opengloves --port glove_port --position-m "
-    "-0.095 "
-    "0 0.1 & glissade run ball_and_tray.yaml --fingers --seconds 8";
+    "-0.095 0 0.1 & glissade run ball_and_tray.yaml --fingers --seconds 8";
 
 struct OpenGlovesBridge {
   BridgeOptions bridge;
@@ -81,7 +81,7 @@ void add_bridge_opengloves(CLI::App& bridge, Command& chosen) {
   add_port_options(*command, options->bridge, "Serial port, or tcp:HOST or tcp:HOST:PORT");
   command
       ->add_option("--full-scale", options->full_scale,
-                   "Number of a closed finger: 4095 of an ESP32, 1023 of an Arduino Nano")
+                   "Number that a closed finger gives: 4095 on an ESP32, 1023 on an Arduino Nano")
       ->capture_default_str();
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

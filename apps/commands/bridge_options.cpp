@@ -25,7 +25,7 @@ bool goes_on() {
 
 void add_bridge_options(CLI::App& command, BridgeOptions& options, const std::string& what) {
   command.add_flag("--list", options.lists, "List the devices or ports that can be found, and end");
-  command.add_flag("--check", options.checks, "Say what arrives from the device or what is wrong, and end");
+  command.add_flag("--check", options.checks, "Print what the device sends, or what is wrong, and end");
   command.add_option("--side", options.side, "Hand that holds or wears the device")
       ->check(one_of({"left", "right"}))
       ->capture_default_str();
@@ -37,8 +37,7 @@ void add_bridge_options(CLI::App& command, BridgeOptions& options, const std::st
   command.add_option("--orientation-wxyz", options.orientation_wxyz, "Orientation of " + what + ", a unit quaternion")
       ->expected(4)
       ->capture_default_str();
-  command.add_option("--seconds", options.seconds, "Time after which the bridge ends; 0: with Ctrl-C")
-      ->capture_default_str();
+  command.add_option("--seconds", options.seconds, "Duration in seconds; 0: until Ctrl-C")->capture_default_str();
 }
 
 void add_port_options(CLI::App& command, BridgeOptions& options, const std::string& ports) {

@@ -30,10 +30,11 @@ namespace {
 
 constexpr const char* kCalibrateFooter =
     "The glove must be running, without --calibration and without a server. The command asks for seven poses: flat\n"
-    "hand, fist, the thumb to each finger, spread fingers. For each pose there are --pause-s to take it and --hold-s\n"
-    "to hold it still; if the hand moves, the command asks again. Then it fits each sensor, prints the errors that\n"
-    "are left, and writes the file for --calibration of 'glissade bridge' and 'glissade glove'. If the data are bad,\n"
-    "it says why, and writes nothing. See docs/devices.md in the sources.\n"
+    "hand, fist, the thumb at the tip of each finger, spread fingers. For each pose, the wearer has the time\n"
+    "--pause-s to take the pose, and then holds the pose still for the time --hold-s. If the hand moves, the command\n"
+    "asks again. At the end, the command fits each sensor, prints the remaining errors, and writes the file for\n"
+    "--calibration of 'glissade bridge' and 'glissade glove'. If the data are bad, the command says why, and writes\n"
+    "nothing. See docs/devices.md in the sources.\n"
     "\n"
     "Examples, with a simulated glove that shows the poses, 2 s each:\n"
     "  glissade glove --poses 2 & glissade calibrate --user anna --out anna.yaml --pause-s 1.6 --hold-s 0.4\n"
@@ -146,8 +147,8 @@ void add_calibrate_command(CLI::App& app, Command& chosen) {
       app.add_subcommand("calibrate", "Guide a wearer through poses, and calibrate the glove's sensors");
   command->footer(kCalibrateFooter);
   command->add_option("--out", options->out, "File for the calibration (YAML)")->required();
-  command->add_flag("--overwrite", options->overwrites, "The calibration may take the place of an older file");
-  command->add_option("--user", options->user, "Name of the wearer; by default that of the login");
+  command->add_flag("--overwrite", options->overwrites, "Replace an existing file with the calibration");
+  command->add_option("--user", options->user, "Name of the wearer; default: the name of the login");
   add_device_option(*command, options->device);
   add_lcm_options(*command, options->lcm);
   command->add_option("--pause-s", options->pause_s, "Time before each pose, in seconds")->capture_default_str();
@@ -156,9 +157,10 @@ void add_calibrate_command(CLI::App& app, Command& chosen) {
   command->add_option("--without", options->without, "Joints that stay as the glove reports them")
       ->check(one_of({hands::kJointNames.begin(), hands::kJointNames.end()}));
   command
-      ->add_option("--flat-at-m", options->flat_at_m,
-                   "Position of the hand root in the pose 'flat', X Y Z in the world, fingers along x, palm down: "
-                   "finds where a tracker is worn")
+      ->add_option(
+          "--flat-at-m", options->flat_at_m,
+          "Position X Y Z of the hand root in the world in the pose 'flat', with fingers along x and palm down. "
+          "The command then also finds where the tracker is worn")
       ->expected(3);
   command->callback([options, &chosen] { chosen = [options] { return run(*options); }; });
 }

@@ -16,7 +16,7 @@ namespace glissade::apps {
 using Command = std::function<int()>;
 
 /// Of --overwrite, which the commands have that record a run.
-inline constexpr const char* kOverwriteHelp = "The recording may take the place of an older file";
+inline constexpr const char* kOverwriteHelp = "Replace an existing file with the recording";
 
 /// `glissade info MESH [--json]`
 void add_info_command(CLI::App& app, Command& chosen);

@@ -54,8 +54,8 @@ constexpr const char* kDemoFooter =
     "--view, the run starts when a browser has opened the page.\n"
     "\n"
     "After the run, brute force checks every visible pose, i.e. every pose at which parts and hands with fingers were\n"
-    "shown. If a pose collides, or if the part misses the goal of the scene, the exit code is 1. Ctrl-C ends the run\n"
-    "earlier: then the goal does not count.\n"
+    "shown. If a pose collides, or if the part misses the goal of the scene, the exit code is 1. If Ctrl-C ends the\n"
+    "run earlier, the goal does not count.\n"
     "For the keys of --json, see docs/file_formats.md in the sources.\n"
     "\n"
     "Examples:\n"
@@ -199,7 +199,7 @@ void add_demo_command(CLI::App& app, Command& chosen) {
       ->excludes("--scene");
   command->add_option(
       "--preset", options->preset,
-      "Wear this simulated device: a preset, see 'glissade glove --presets', or a YAML file with a model");
+      "Simulated device on the hand: a preset (see 'glissade glove --presets') or a YAML file with a model");
   add_sliding_options(*command, options->choice);
   CLI::Option* offline =
       command->add_flag("--offline", options->offline, "Run deterministically, on a simulated clock, in one thread");

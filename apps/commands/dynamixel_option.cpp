@@ -11,7 +11,7 @@ void add_dynamixel_option(CLI::App& command, DynamixelOption& option) {
   command.add_option("--preset", option.preset, "Known glove: " + files::joined(bridges::dynamixel_presets()))
       ->check(one_of(bridges::dynamixel_presets()))
       ->excludes(config);
-  command.add_option("--baud", option.baud_rate, "Baud rate of the bus, in place of that of the configuration");
+  command.add_option("--baud", option.baud_rate, "Baud rate of the bus, instead of the one in the configuration");
 }
 
 bridges::DynamixelHand read_hand(const DynamixelOption& option) {

@@ -16,10 +16,10 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kEmulateFooter =
-    "An emulator is a device without hardware, with the wire of the real one. To a bridge there is no difference. The\n"
+    "An emulator is a program that speaks the protocol of a device, so you can try a bridge without hardware. The\n"
     "fingers, motors and strings of the gloves 'dynamixel' and 'opengloves' have the dynamics of the presets of the\n"
-    "same names, see 'glissade glove --presets'. The hand of 'haply' follows a script, and so can the\n"
-    "fingers and the palm of a glove.\n"
+    "same names, see 'glissade glove --presets'. The hand of 'haply', and the fingers and palm of a glove, can follow\n"
+    "a script.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"
@@ -56,10 +56,9 @@ bool EmulateOptions::has_fault(std::string_view name) const {
 }
 
 void add_emulate_options(CLI::App& command, EmulateOptions& options, const std::vector<std::string>& faults) {
-  command.add_option("--fault", options.faults, "What is wrong with the wire, see below")->check(one_of(faults));
+  command.add_option("--fault", options.faults, "Faults of the connection, see below")->check(one_of(faults));
   command.add_option("--seed", options.seed, "Seed of the faults")->capture_default_str();
-  command.add_option("--seconds", options.seconds, "Time after which the device ends; 0: with Ctrl-C")
-      ->capture_default_str();
+  command.add_option("--seconds", options.seconds, "Duration in seconds; 0: until Ctrl-C")->capture_default_str();
 }
 
 bridges::LineFaults line_faults(const EmulateOptions& options, double share, std::chrono::nanoseconds slowness) {
@@ -92,7 +91,7 @@ void run_emulator(const EmulateOptions& options, const RunningEmulator& emulator
 }
 
 void add_emulate_command(CLI::App& app, Command& chosen) {
-  CLI::App* command = app.add_subcommand("emulate", "Be a device without hardware, to try a bridge");
+  CLI::App* command = app.add_subcommand("emulate", "Emulate a device, to try a bridge without hardware");
   command->require_subcommand(1);
   command->footer(kEmulateFooter);
   add_emulate_dynamixel(*command, chosen);

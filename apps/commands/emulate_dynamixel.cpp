@@ -19,19 +19,19 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kDynamixelFooter =
-    "Prints the port of its bus on standard output and, on a second line, that of its measuring board if it has\n"
-    "one. A wearer closes and opens all fingers, each a little later than the one before, or moves them as a script\n"
-    "says, against the servos. The script is that of 'glissade glove' with joint angles, and begins after two\n"
-    "seconds. With --tracker, a tracker sends the poses of the same script 90 times a second on HAND_POSE, for\n"
-    "'glissade bridge' with --pose-from. Faults: 'garbage' before one packet in fifty, one packet in fifty 'cut' or "
-    "with 'wrong-bits', 'echo' of\n"
-    "all that arrives, 'slow' (each answer comes 3 ms late), 'unplug' at random.\n"
+    "Prints the port of the bus on standard output. If the glove has a measuring board, a second line has the port of\n"
+    "the board. A simulated wearer moves the fingers against the servos. The wearer closes and opens all fingers,\n"
+    "each a little later than the one before, or follows --script. The script has the format of 'glissade glove' with\n"
+    "joint angles, and begins after two seconds. With --tracker, a tracker sends the poses of the same script 90\n"
+    "times a second on HAND_POSE, for 'glissade bridge' with --pose-from.\n"
+    "Faults: 'garbage' puts random bytes before one packet in fifty, 'cut' shortens one packet in fifty, 'wrong-bits'\n"
+    "changes a bit in one packet in fifty, 'echo' sends back all that arrives, 'slow' delays each answer by 3 ms, and\n"
+    "'unplug' removes the ports at random.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate dynamixel --preset doglove --seconds 2\n"
     "  glissade emulate dynamixel --preset doglove --link servos --board-link board --fault wrong-bits unplug "
-    "--seconds 4 "
-    "& glissade bridge dynamixel --preset doglove --port servos --board-port board --seconds 4";
+    "--seconds 4 & glissade bridge dynamixel --preset doglove --port servos --board-port board --seconds 4";
 
 struct DynamixelEmulation {
   EmulateOptions emulate;
@@ -85,7 +85,7 @@ void add_emulate_dynamixel(CLI::App& emulate, Command& chosen) {
   CLI::App* glove = emulate.add_subcommand("dynamixel", "A glove of Dynamixel servos");
   glove->footer(kDynamixelFooter);
   add_dynamixel_option(*glove, options->hand);
-  glove->add_option("--link", options->link, "Path of a link to the port of the bus, which stays after unplugging");
+  glove->add_option("--link", options->link, "Path of a link to the port of the bus; the link stays after unplugging");
   glove->add_option("--board-link", options->board_link, "The same for the measuring board");
   add_wearer_options(*glove, options->wearer);
   add_emulate_options(*glove, options->emulate);

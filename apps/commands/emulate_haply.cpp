@@ -20,11 +20,11 @@ namespace {
 
 constexpr const char* kHaplyEmulatorFooter =
     "Prints the address of the service on standard output. The service has an Inverse3 with a VerseGrip. The hand\n"
-    "begins with the script two seconds after the first message of a bridge. The script is that of 'glissade glove':\n"
-    "poses in the frame of the device, and whether the hand is closed, i.e. presses a button. Without --script, the\n"
-    "hand rests.\n"
-    "Faults: 'garbage' in place of one answer in a hundred, 'cut' answers, one in a hundred, 'slow' answers (50 ms\n"
-    "late), 'unplug' of the device and 'restart' of the service at random.\n"
+    "begins the script two seconds after the first message of a bridge. The script has the format of 'glissade\n"
+    "glove': poses in the frame of the device, and whether the hand is closed, i.e. presses a button. Without\n"
+    "--script, the hand rests.\n"
+    "Faults: 'garbage' replaces one answer in a hundred, 'cut' shortens one answer in a hundred, 'slow' delays\n"
+    "answers by 50 ms, 'unplug' disconnects the device at random, and 'restart' restarts the service at random.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate haply --port 0 --seconds 2\n"
@@ -89,17 +89,18 @@ void add_emulate_haply(CLI::App& emulate, Command& chosen) {
       ->check(CLI::Range(0, 65535))
       ->capture_default_str();
   command->add_option("--script", options->script, "Trajectory of the tip (CSV)");
-  command->add_flag("--before-3-5", options->is_before_3_5, "A service before version 3.5");
-  command->add_flag("--no-handle", options->has_no_handle, "A device without a VerseGrip");
+  command->add_flag("--before-3-5", options->is_before_3_5, "Emulate a service before version 3.5");
+  command->add_flag("--no-handle", options->has_no_handle, "Emulate a device without a VerseGrip");
   command
       ->add_option("--force-gate", options->filters.force_gate,
-                   "Share of an oscillating force that the service takes away")
+                   "Share of an oscillating force that the service removes")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   command->add_option("--damping", options->filters.damping_N_s_per_m, "Damping that the service adds, in N s/m")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
-  command->add_option("--force-scale", options->filters.force_scale, "Factor of the service on all forces")
+  command
+      ->add_option("--force-scale", options->filters.force_scale, "Factor by which the service multiplies all forces")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
   add_emulate_options(*command, options->emulate, {"garbage", "cut", "slow", "unplug", "restart"});

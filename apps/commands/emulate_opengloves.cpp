@@ -17,13 +17,14 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kOpenGlovesFooter =
-    "Prints its port on standard output. A wearer closes and opens all fingers, each a little later than the one\n"
-    "before, or moves them as a script says, within the limits of the servos. The script is that of 'glissade glove'\n"
-    "with joint angles, and begins after two seconds. With --tracker, a tracker sends the poses of the same script 90\n"
-    "times a second on HAND_POSE, for 'glissade bridge' with --pose-from. Faults: 'garbage' before one state in ten, "
-    "one state in ten "
-    "'cut' or\n"
-    "with 'wrong-bits', 'echo' of all that arrives, 'slow' (each state comes 0.1 s late), 'unplug' at random.\n"
+    "Prints the port of the glove on standard output. A simulated wearer moves the fingers within the limits of the\n"
+    "servos. The wearer closes and opens all fingers, each a little later than the one before, or follows --script.\n"
+    "The script has the format of 'glissade glove' with joint angles, and begins after two seconds. With --tracker, a\n"
+    "tracker sends the poses of the same script 90 times a second on HAND_POSE, for 'glissade bridge' with\n"
+    "--pose-from.\n"
+    "Faults: 'garbage' puts random bytes before one state in ten, 'cut' shortens one state in ten, 'wrong-bits'\n"
+    "changes a bit in one state in ten, 'echo' sends back all that arrives, 'slow' delays each state by 0.1 s, and\n"
+    "'unplug' removes the port at random.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"
@@ -89,15 +90,15 @@ void add_emulate_opengloves(CLI::App& emulate, Command& chosen) {
   CLI::App* glove = emulate.add_subcommand("opengloves", "A glove with the firmware of LucidGloves");
   glove->footer(kOpenGlovesFooter);
   CLI::Option* link =
-      glove->add_option("--link", options->link, "Path of a link to the port, which stays the same after unplugging");
-  glove->add_option("--tcp", options->tcp_port, "TCP port of this machine in place of a serial port")
+      glove->add_option("--link", options->link, "Path of a link to the port; the link stays after unplugging");
+  glove->add_option("--tcp", options->tcp_port, "TCP port of this machine, instead of a serial port")
       ->check(CLI::Range(1, 65535))
       ->excludes(link);
   glove->add_option("--encoding", options->encoding, "Encoding of the lines")
       ->check(one_of({"alpha", "legacy"}))
       ->capture_default_str();
   glove->add_option("--rate-hz", options->rate_Hz, "States per second, at most; 1 to 1000")->capture_default_str();
-  glove->add_option("--full-scale", options->full_scale, "Number of a closed finger")->capture_default_str();
+  glove->add_option("--full-scale", options->full_scale, "Number that a closed finger gives")->capture_default_str();
   add_wearer_options(*glove, options->wearer);
   add_emulate_options(*glove, options->emulate);
   glove->callback([options, &chosen] { chosen = [options] { return run(*options); }; });

@@ -50,7 +50,8 @@ void add_wearer_options(CLI::App& command, WearerOptions& options) {
   CLI::Option* script = command.add_option("--script", options.script,
                                            "Trajectory with joint angles (CSV), by which the wearer moves the fingers");
   CLI::Option* tracker =
-      command.add_flag("--tracker", options.is_tracked, "Send the poses of the script too, as a tracker of the hand")
+      command
+          .add_flag("--tracker", options.is_tracked, "Also send the poses of the script, as a tracker of the hand does")
           ->needs(script);
   add_device_option(command, options.device);
   add_lcm_options(command, options.lcm);

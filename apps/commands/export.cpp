@@ -37,7 +37,7 @@ constexpr const char* kExportFooter =
     "\n"
     "Without --log, objects have their initial poses. With --at, objects that move on their own have the poses of\n"
     "their trajectory ('moves') at this time. With --log, parts and hands with fingers have their visible poses at\n"
-    "this time, counted from the first tick of the recording. SCENE, then optional, must be the recorded scene.\n"
+    "this time, counted from the first tick of the recording. SCENE is then optional, and must be the recorded scene.\n"
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade export car_door.yaml --out door.obj\n"

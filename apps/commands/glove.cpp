@@ -46,8 +46,8 @@ constexpr const char* kGloveFooter =
     "The hand waits at the first pose until a haptic server ('glissade run') sends a command. The hand yields to\n"
     "forces. If the server or the visible parts are slow, the simulated wearer waits for at most three seconds. The\n"
     "process ends at the end of the script, or with Ctrl-C. When the force fades, the command prints the reason to\n"
-    "standard error. If another glove sends under the same number, it says so there. For the columns of --record, see\n"
-    "docs/file_formats.md in the sources.\n"
+    "standard error. If another glove sends under the same number, the command reports this there, too. For the\n"
+    "columns of --record, see docs/file_formats.md in the sources.\n"
     "Without --preset, the hand is on an ideal arm, and its fingers have no mass. A preset is a model of a device: "
     "its\n"
     "mechanics, sensors, servo loop and link. docs/glove_models.md in the sources has the keys of a model's file.\n"
@@ -241,18 +241,19 @@ void add_glove_command(CLI::App& app, Command& chosen) {
       ->excludes("--script");
   command
       ->add_option("--poses", options->seconds_per_pose,
-                   "Show the poses of 'glissade calibrate', each for so many seconds, without a server")
+                   "Show the poses of 'glissade calibrate', each for this number of seconds, without a server")
       ->excludes("--script")
       ->excludes("--fingers");
   add_calibration_option(*command, options->link);
   command
-      ->add_option("--frozen-ms", options->frozen_ms,
-                   "Time in milliseconds for which the tracker may repeat a pose bit by bit; then the force fades; "
-                   "0: not checked")
+      ->add_option(
+          "--frozen-ms", options->frozen_ms,
+          "Longest time in milliseconds for which the tracker may repeat a pose bit by bit before the force fades; "
+          "0: not checked")
       ->capture_default_str();
   command->add_option("--preset", options->preset,
-                      "Simulate this device: a preset, see --presets, or a YAML file with a model");
-  command->add_flag("--presets", options->lists_presets, "List the presets, and do nothing else");
+                      "Device to simulate: a preset (see --presets) or a YAML file with a model");
+  command->add_flag("--presets", options->lists_presets, "List the presets and end");
   CLI::Option* record =
       command->add_option("--record", options->record, "CSV file for the hand's pose and force in every period");
   command->add_flag("--overwrite", options->overwrites, kOverwriteHelp)->needs(record);

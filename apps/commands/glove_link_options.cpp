@@ -29,15 +29,16 @@ std::int64_t number_of(const std::string& pose_from, std::int64_t device) {
 }  // namespace
 
 void add_calibration_option(CLI::App& command, GloveLinkOptions& options) {
-  command.add_option("--calibration", options.calibration,
-                     "File of 'glissade calibrate' for this wearer, glove and side: applied to all that leaves");
+  command.add_option(
+      "--calibration", options.calibration,
+      "File of 'glissade calibrate' for this wearer, glove and side; applied to all states that are sent");
 }
 
 void add_pose_options(CLI::App& command, GloveLinkOptions& options) {
   CLI::Option* from =
       command.add_option("--pose-from", options.pose_from,
-                         "Where the hand is: 'lcm' for a tracker that sends HAND_POSE with the number of the glove, "
-                         "or lcm:NUMBER with another number");
+                         "Source of the hand's pose: 'lcm' for a tracker that sends HAND_POSE with the number of the "
+                         "glove, lcm:NUMBER for a tracker with another number");
   command.add_option("--pose-rate-hz", options.pose_rate_Hz, "Poses per second that the tracker sends at least")
       ->capture_default_str()
       ->needs(from);

@@ -28,7 +28,7 @@ CLI::Validator glove_number() {
 }
 
 void add_device_option(CLI::App& command, std::int64_t& device) {
-  command.add_option("--device", device, "Number of the glove; each glove at an LCM address needs one of its own")
+  command.add_option("--device", device, "Number of the glove; each glove at an LCM address needs a different number")
       ->check(glove_number())
       ->capture_default_str();
 }
@@ -38,7 +38,7 @@ void add_lcm_options(CLI::App& command, LcmAddress& address) {
   command.add_option(
       "--key-file", address.key_file,
       "File with a key, as printed by 'openssl rand -hex 32': messages without a code made with this key "
-      "are dropped. Glove and haptic server need the same");
+      "are dropped. Glove and haptic server need the same key");
 }
 
 std::shared_ptr<devices::LcmBus> connect_to_lcm(const std::string& url, const std::optional<devices::LcmKey>& key) {

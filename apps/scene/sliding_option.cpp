@@ -14,9 +14,11 @@ void add_sliding_options(CLI::App& command, SlidingChoice& choice) {
       ->capture_default_str();
   command
       .add_option("--stiffness", choice.stiffness_N_per_m,
-                  "Stiffness of the coupling of hand and part in N/m, 10 to 100000; default: 1000")
+                  "Stiffness of the spring between hand and part in N/m, 10 to 100000; default: 1000")
       ->check(positive());
-  command.add_option("--friction", choice.friction, "Coefficient of Coulomb friction; or two, sliding and at rest")
+  command
+      .add_option("--friction", choice.friction,
+                  "Coefficient of Coulomb friction, or two coefficients: sliding and at rest")
       ->expected(1, 2)
       ->check(not_negative());
   command.add_flag("--spiral-search", choice.spiral_search, "Search in a spiral when the part is stuck, see below");

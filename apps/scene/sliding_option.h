@@ -29,26 +29,27 @@ struct SlidingChoice {
 /// What the end of `--help` says about these options.
 inline constexpr const char* kSlidingChoiceHelp =
     "\n\n"
-    "Metaphors: the metaphor is the rule by which the hand moves the part. It gives the part a target; in the first\n"
-    "and the third metaphor, the target is the ghost.\n"
+    "Metaphors: the metaphor is the rule by which the hand moves the part. The ghost is the pose that the part would\n"
+    "have if nothing were in the way. The metaphor determines the target of the part. In the first and the third\n"
+    "metaphor, the target is the ghost.\n"
     "  force-feedback      rigid grasp; the device holds the hand back, and the part catches up at a limited speed\n"
     "  rubber-band         a rubber band ties the part's compliance point, by default the centre of its bounding box,\n"
     "                      to the ghost; contacts alone turn the part, and the hand feels no torque\n"
     "  rubber-band-spring  a rubber band and a spiral spring tie the part to the ghost; the part catches up at once\n"
     "  incremental         the part repeats each motion of the ghost; motion that contacts prevent is lost\n"
     "\n"
-    "Stiffness: the hand feels a part that cannot follow as a spring of 1000 N/m, or of --stiffness, from 10 to\n"
-    "100000 N/m. Against rotation it is this times the square of the part's radius. With a device it is never stiffer\n"
-    "than what the device can render without shaking, and a softer one is told.\n"
+    "Stiffness: if the part cannot follow, the hand feels a spring of the stiffness --stiffness, 10 to 100000 N/m\n"
+    "(default: 1000 N/m). The stiffness against rotation is this value times the square of the part's radius. With a\n"
+    "device, the spring is never stiffer than the device can render without shaking. If this makes the spring softer,\n"
+    "the command says so.\n"
     "\n"
     "Rules:\n"
-    "  --spiral-search     A part that stands still for 0.1 s away from its target is aimed beside the target, in a\n"
-    "                      spiral that grows to 1.6 mm in two seconds, as a hand searches for a hole.\n"
+    "  --spiral-search     If a part stands still for 0.1 s away from its target, it is led along a spiral beside the\n"
+    "                      target, as a hand searches for a hole. The spiral grows to 1.6 mm in two seconds.\n"
     "                      With --friction, press lightly: the spiral pulls with 1.6 N at most.\n"
-    "  --depenetrate       A part that starts in obstacles, deeper than its margin, moves out at 0.2 m/s at most, on "
-    "a\n"
-    "                      short straight way on which it gets no deeper into any of them. Where there is none, the\n"
-    "                      hand can draw the part out: only deeper in, and through a wall, it never comes.";
+    "  --depenetrate       A part that starts in obstacles, deeper than its margin, moves out at 0.2 m/s at most. Its\n"
+    "                      path is short and straight, and leads no deeper into any obstacle. If there is no such\n"
+    "                      path, the hand can draw the part out, but never deeper in or through a wall.";
 
 void add_sliding_options(CLI::App& command, SlidingChoice& choice);
 
