@@ -30,7 +30,7 @@ namespace {
 constexpr const char* kExportDescription = "Write the meshes of a scene at one moment, for other programs";
 
 constexpr const char* kExportFooter =
-    "FILE ends in\n"
+    "The ending of FILE selects the format:\n"
     "  .obj  Wavefront OBJ: a group for each object, in double precision\n"
     "  .glb  binary glTF: a node for each object, with its vertices on a grid of 65,536 steps across the object\n"
     "Both formats are in metres and have the axes of the world. Nothing is simplified.\n"
