@@ -18,7 +18,7 @@
  * frees it once.
  *
  * Threads. Any thread may call any function. Calls on the same object wait for each other. There are two exceptions:
- * glissade_server_frame waits only for other calls of itself, and glissade_server_emergency_stop waits for no call.
+ * glissade_server_frame waits only while a frame is copied, and glissade_server_emergency_stop waits for no call.
  * Neither the haptic thread nor the simulation thread ever waits for a call. Arrays and texts that a caller passes are
  * read during the call only. */
 
