@@ -158,7 +158,7 @@ typedef struct GlissadePart {
   GlissadePose X_WG;     /**< its ghost */
   int32_t state;         /**< GlissadePartState */
   int32_t contact_count; /**< contacts that push */
-  double force_N[3];     /**< of the contacts on the hands that hold the part, in world axes */
+  double force_N[3];     /**< that contacts exert on the hands that hold the part, in world axes */
   double torque_Nm[3];   /**< about the part's compliance point (default: the middle of its bounding box), world axes */
 } GlissadePart;
 
@@ -215,8 +215,8 @@ typedef enum GlissadeReason {
   GLISSADE_REASON_ENERGY_LIMITED = 1 << 14  /**< by the energy that is left, see docs/safety.md */
 } GlissadeReason;
 
-/** Capabilities and limits of a device; see devices/glove_device.h. 0 means that the device exerts none, or that the
- * value is not known. Required: max_stiffness_N_per_m and max_rotational_stiffness_Nm_per_rad. */
+/** Capabilities and limits of a device; see devices/glove_device.h. 0 means that the device exerts no such force, or
+ * that the value is not known. Required: max_stiffness_N_per_m and max_rotational_stiffness_Nm_per_rad. */
 typedef struct GlissadeDevice {
   double max_force_N, max_torque_Nm, max_joint_torque_Nm;
   double max_power_W;      /**< that force and torque put into the hand; 50 by default */
@@ -274,7 +274,7 @@ GLISSADE_API GlissadeStatus glissade_glove_put(GlissadeGlove glove, const Glissa
  * device's watchdog ends the force (docs/safety.md). For a simulated glove: the command that it executes. Any thread
  * may ask for it. */
 GLISSADE_API GlissadeStatus glissade_glove_command(GlissadeGlove glove, GlissadeGloveCommand* command);
-/** Writes the most serious reason as a sentence, cut to `capacity` bytes with the final 0; "" without a reason. */
+/** Writes the most serious reason as a sentence, cut to `capacity` bytes including the final 0. No reason gives "". */
 GLISSADE_API GlissadeStatus glissade_reason_text(int32_t reasons, int64_t age_ns, char* text, size_t capacity);
 
 /* ---- The haptic loop: forces at 1000 Hz in one thread, the simulation in another. */

@@ -46,7 +46,7 @@ struct DopTreeOptions {
 };
 
 /// The children of a node. Children that are nodes come first, then children that are leaves. Nodes and leaves of a
-/// tree are numbered separately. The nodes among the children have consecutive numbers, and so have the leaves.
+/// tree are numbered separately. Those of the children that are nodes have consecutive numbers, as have the leaves.
 struct TreeNode {
   std::uint32_t first_node;  ///< number of the first child that is a node
   std::uint32_t first_leaf;  ///< number of the first child that is a leaf

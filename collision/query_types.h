@@ -112,9 +112,9 @@ class GLISSADE_EXPORT CoherentWorkspace {
   std::unique_ptr<CoherentFront> front_;
 };
 
-/// A set of selected triangles of one tree. Other triangles may be half selected. A triangle pair of two trees is a
-/// selected pair if at least one of its triangles is selected, or if both are half selected. Immutable after
-/// construction, so threads may share it.
+/// A set of selected triangles of one tree. Each other triangle may be half selected, a weaker choice. A triangle pair
+/// of two trees is a selected pair if at least one of its triangles is selected, or if both are half selected.
+/// Immutable after construction, so threads may share it.
 class GLISSADE_EXPORT TriangleSelection {
  public:
   /// Calls both functions once for each triangle, with the index of the triangle in the mesh. Without

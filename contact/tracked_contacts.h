@@ -41,7 +41,7 @@ struct TrackedContact {
 /// gap is at most three margins. So the number stays the same while the gap fluctuates around two margins. Contacts of
 /// two successive updates are the same contact, with the same number, in two cases:
 /// 1. Obstacle, kind, features and triangles are the same.
-/// 2. The old contact has no successor by case 1, and the new contact continues the old contact. A contact continues
+/// 2. Case 1 gives the old contact no successor, and the new contact continues the old one. A contact continues
 ///    another contact if the obstacle is the same, the normals are within 10°, the contact points on the part are at
 ///    most d apart, and the contact points on the obstacle are at most d apart. Here d is the sum of the motion of the
 ///    part at the contact, `obstacle_travel` and three margins.

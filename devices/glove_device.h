@@ -165,8 +165,9 @@ struct HandWrench {
   Eigen::Vector3d t_H_W = Eigen::Vector3d::Zero();
 };
 
-/// The wrench of half-spaces on a hand with this pose, velocity of the origin of H (m/s) and angular velocity (rad/s).
-/// Zero for half-spaces that contradict each other. Cost: about ten microseconds for eight rows. Real-time safe.
+/// The wrench that half-spaces exert on a hand: its pose, the velocity of the origin of H (m/s), angular velocity
+/// (rad/s). Zero for half-spaces that contradict each other. Cost: about ten microseconds for eight rows. Real-time
+/// safe.
 GLISSADE_EXPORT HandWrench half_space_wrench(const HalfSpaces& half_spaces, const Eigen::Isometry3d& X_WH,
                                              const Eigen::Vector3d& v_WH = Eigen::Vector3d::Zero(),
                                              const Eigen::Vector3d& w_WH = Eigen::Vector3d::Zero()) noexcept;

@@ -32,7 +32,7 @@ struct WristModel {
   double loop_rate = 1000.0;              ///< of the loop that holds half-spaces, Hz
   double loop_delay = 0.0;                ///< from measurement to force in this loop, in addition to the period, s
   double position_noise = 0.0;            ///< standard deviation along each axis of a measured position, m
-  double rotation_noise = 0.0;            ///< standard deviation about each axis of a measured rotation, rad
+  double rotation_noise = 0.0;            ///< standard deviation of a measured rotation about each axis, rad
 };
 
 /// What moves or stops the fingers.

@@ -127,8 +127,8 @@ class GLISSADE_EXPORT SafetyEnvelope {
   /// The descriptor, with the maxima of force and torque lowered to what their rates allow.
   const DeviceDescriptor& descriptor() const noexcept;
 
-  /// The upper quartile of the ages of new commands, followed at a bounded rate. At the glove's end, it is the delay of
-  /// the whole round trip. Ages above 150 ms count as silence.
+  /// An estimate of the upper quartile of the ages of new commands, which changes at a bounded rate. At the glove's
+  /// end, it is the delay of the whole round trip. Ages above 150 ms count as silence.
   std::chrono::nanoseconds link_delay() const noexcept;
 
  private:

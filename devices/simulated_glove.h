@@ -104,7 +104,7 @@ class GLISSADE_EXPORT SimulatedGlove {
   /// The true state of the hand, at the present time. Without a model, it is the measured state.
   const GloveState& true_state() const noexcept { return truth_; }
 
-  /// Numbers of messages that the link of the model has lost so far.
+  /// How many messages the model's communication link has lost so far.
   LinkLosses link_losses() const noexcept;
 
   /// The torques (Nm) that the device exerts on the finger joints, at the present time.

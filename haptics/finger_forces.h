@@ -59,9 +59,9 @@ GLISSADE_EXPORT double finger_stiffness(const devices::DeviceDescriptor& device,
 /// so n joints may be stiffer by the factor (1 + √n) / 2. Real-time safe: O(joints²) at worst.
 GLISSADE_EXPORT void deepen(const FingerRow& row, const hands::JointValues& lags, hands::JointValues& depths) noexcept;
 
-/// Computes the joint torques of a glove whose hand clasps an object. If the motion of a joint from the visible hand's
-/// posture to the glove's goes deeper into a contact, a spring pushes the joint back. The deflection of the spring is
-/// the depth that `deepen` computes. All other joints get exactly zero torque.
+/// Computes the joint torques of a glove whose hand clasps an object. A spring pushes a joint
+/// back if moving it from the visible hand's angle to the glove's angle leads deeper into a contact. The deflection of
+/// the spring is the depth that `deepen` computes. All other joints get exactly zero torque.
 ///
 /// The torque is continuous in the posture of the glove. Contacts whose lever arm about a joint's axis is less than 2
 /// mm count less, down to zero. If a joint of the wearer presses with τ Nm (at most the largest torque), it rests τ /
