@@ -1,5 +1,5 @@
 # The manual: Sphinx over the pages as they lie in the tree, so that links between pages work here and on a forge.
-# scripts/site builds it.
+# scripts/build_site builds it.
 import re
 from pathlib import Path
 
