@@ -12,6 +12,7 @@ include_patterns = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELO
                     "docs/coming_from/*.md", "docs/site/*.rst"]
 root_doc = "docs/site/index"
 nitpicky = True
+highlight_language = "none"  # of blocks that name none: what programs print
 # Types of NumPy and of arguments that stubs describe are no pages of this manual.
 nitpick_ignore_regex = [("py:.*", r"(numpy|array|object|list|tuple|bool|int|float|str|None|List|Optional|Tuple|Callable).*")]
 
