@@ -1,5 +1,15 @@
 set(glissade_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/glissade)
 
+# Before 1.0.0, a minor version may break the interface. Afterwards, only a major version may. The loader learns it from the
+# SONAME, find_package from the compatibility.
+if(PROJECT_VERSION_MAJOR EQUAL 0)
+  set(glissade_interface_version ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+  set(glissade_compatibility SameMinorVersion)
+else()
+  set(glissade_interface_version ${PROJECT_VERSION_MAJOR})
+  set(glissade_compatibility SameMajorVersion)
+endif()
+
 # glissade_find_package(PACKAGE [VERSION] [options...]): finds a package that components may need, for targets named
 # PACKAGE::... among their DEPENDS. The installed glissade finds it with the same arguments, where a requested component
 # needs it.
@@ -17,7 +27,7 @@ if(BUILD_SHARED_LIBS)
     EXPORT_NAME library
     LINKER_LANGUAGE CXX
     VERSION ${PROJECT_VERSION}
-    SOVERSION ${PROJECT_VERSION_MAJOR})
+    SOVERSION ${glissade_interface_version})
   target_link_options(glissade_library PRIVATE LINKER:--no-undefined,--as-needed)
   install(TARGETS glissade_library EXPORT glissade_library
     LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR} COMPONENT library NAMELINK_COMPONENT development)

@@ -91,7 +91,8 @@ foreach(component IN LISTS components)
 endforeach()
 configure_file(${CMAKE_CURRENT_LIST_DIR}/glissadeConfig.cmake.in ${PROJECT_BINARY_DIR}/glissadeConfig.cmake @ONLY)
 include(CMakePackageConfigHelpers)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/glissadeConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/glissadeConfigVersion.cmake
+  COMPATIBILITY ${glissade_compatibility})
 install(FILES ${PROJECT_BINARY_DIR}/glissadeConfig.cmake ${PROJECT_BINARY_DIR}/glissadeConfigVersion.cmake
   ${CMAKE_CURRENT_LIST_DIR}/FindLCM.cmake ${CMAKE_CURRENT_LIST_DIR}/Findsodium.cmake DESTINATION ${glissade_package_dir}
   COMPONENT development)

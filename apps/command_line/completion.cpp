@@ -79,13 +79,15 @@ std::string steps(const CLI::App& app) {
   return text;
 }
 
-/// The cases that give the values after an option.
+/// The cases that give the values after an option: the next word, or each word up to the next option.
 std::string value_cases(const CLI::App& app) {
   std::string text;
   for_each_command(app, "glissade", [&text](const CLI::App& command, const std::string& name) {
     for (const CLI::Option* option : command.get_options()) {
       const std::string values = values_of(*option);
-      if (!values.empty()) text += "    '" + name + ' ' + option->get_name() + "') values='" + values + "' ;;\n";
+      if (values.empty()) continue;
+      const std::string condition = option->get_items_expected_max() > 1 ? "" : "((after)) || ";
+      text += "    '" + name + ' ' + option->get_name() + "') " + condition + "values='" + values + "' ;;\n";
     }
   });
   return text;
@@ -95,8 +97,9 @@ std::string word_cases(const CLI::App& app, const std::function<std::string(cons
                        const std::pair<std::string, std::string>& brackets) {
   std::string text;
   for_each_command(app, "glissade", [&](const CLI::App& command, const std::string& name) {
-    text += "    '" + name + "')\n      commands=" + brackets.first + list(command_words(command)) + brackets.second +
-            "\n      options=" + brackets.first + list(option_words(command)) + brackets.second + " ;;\n";
+    text += "    '" + name + "')\n      subcommands=" + brackets.first + list(command_words(command)) +
+            brackets.second + "\n      option_names=" + brackets.first + list(option_words(command)) + brackets.second +
+            " ;;\n";
   });
   return text;
 }
@@ -106,45 +109,50 @@ std::string word_cases(const CLI::App& app, const std::function<std::string(cons
 std::string bash_completion(const CLI::App& app) {
   return "# Completion of glissade in bash.\n"
          "_glissade() {\n"
-         "  local command=glissade commands options values index current=${COMP_WORDS[COMP_CWORD]}\n"
+         "  local command=glissade option after=0 values subcommands option_names\n"
+         "  local index current=${COMP_WORDS[COMP_CWORD]}\n"
          "  for ((index = 1; index < COMP_CWORD; index++)); do\n"
+         "    ((++after))\n"
+         "    [[ ${COMP_WORDS[index]} != -* ]] || option=${COMP_WORDS[index]} after=0\n"
          "    case \"$command ${COMP_WORDS[index]}\" in\n" +
          steps(app) +
          "    esac\n"
          "  done\n"
-         "  case \"$command ${COMP_WORDS[COMP_CWORD-1]}\" in\n" +
+         "  case \"$command $option\" in\n" +
          value_cases(app) +
          "  esac\n"
          "  case $command in\n" +
          word_cases(app, texts_of, {"'", "'"}) +
          "  esac\n"
-         "  [[ $current != -* ]] || commands=$options\n"
-         "  mapfile -t COMPREPLY < <(compgen -W \"${values:-$commands}\" -- \"$current\")\n"
+         "  [[ $current != -* ]] || values=$option_names\n"
+         "  mapfile -t COMPREPLY < <(compgen -W \"${values:-$subcommands}\" -- \"$current\")\n"
          "}\n"
          "complete -o default -F _glissade glissade\n";
 }
 
 std::string zsh_completion(const CLI::App& app) {
   return "#compdef glissade\n"
-         "local command=glissade values word\n"
-         "local -a commands options\n"
+         "local command=glissade option after=0 values word\n"
+         "local -a subcommands option_names\n"
          "for word in ${words[2,CURRENT-1]}; do\n"
+         "    ((++after))\n"
+         "    [[ $word != -* ]] || option=$word after=0\n"
          "    case \"$command $word\" in\n" +
          steps(app) +
          "    esac\n"
          "done\n"
-         "case \"$command ${words[CURRENT-1]}\" in\n" +
+         "case \"$command $option\" in\n" +
          value_cases(app) +
          "esac\n"
          "case $command in\n" +
          word_cases(app, described, {"(", ")"}) +
          "esac\n"
-         "if [[ -n $values ]]; then\n"
+         "if [[ $PREFIX == -* ]]; then\n"
+         "  _describe -o option option_names\n"
+         "elif [[ -n $values ]]; then\n"
          "  compadd -- ${=values}\n"
-         "elif [[ $PREFIX == -* ]]; then\n"
-         "  _describe -o option options\n"
-         "elif (( $#commands )); then\n"
-         "  _describe command commands\n"
+         "elif (( $#subcommands )); then\n"
+         "  _describe command subcommands\n"
          "else\n"
          "  _files\n"
          "fi\n";

@@ -1,5 +1,5 @@
 # The manual: Sphinx over the pages as they lie in the tree, so that links between pages work here and on a forge.
-# scripts/site builds it.
+# scripts/build_site builds it.
 import re
 from pathlib import Path
 
@@ -12,6 +12,7 @@ include_patterns = ["README.md", "ARCHITECTURE.md", "CONTRIBUTING.md", "CHANGELO
                     "docs/coming_from/*.md", "docs/site/*.rst"]
 root_doc = "docs/site/index"
 nitpicky = True
+highlight_language = "none"  # of blocks that name none: what programs print
 # Types of NumPy and of arguments that stubs describe are no pages of this manual.
 nitpick_ignore_regex = [("py:.*", r"(numpy|array|object|list|tuple|bool|int|float|str|None|List|Optional|Tuple|Callable).*")]
 

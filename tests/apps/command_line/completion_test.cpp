@@ -55,6 +55,13 @@ TEST_F(CommandLineFiles, ValuesOfAChoiceAreCompleted) {
   EXPECT_EQ(completed("glissade glove --side l"), "left");
 }
 
+TEST_F(CommandLineFiles, AllValuesOfAListAreCompleted) {
+  EXPECT_EQ(completed("glissade emulate opengloves --fault echo cu"), "cut");
+  EXPECT_EQ(completed("glissade emulate opengloves --fault echo --se"), "--seed --seconds");
+  EXPECT_EQ(completed("glissade emulate opengloves --fault echo --link cu"), "");
+  EXPECT_EQ(completed("glissade glove --side left ri"), "");  // one side is all it takes
+}
+
 TEST_F(CommandLineFiles, FilesAreLeftToBash) {
   EXPECT_EQ(completed("glissade info ''"), "");
 }
