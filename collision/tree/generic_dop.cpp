@@ -58,10 +58,11 @@ std::vector<GenericVertex> compute_vertices(const DopDirections& directions) {
 }  // namespace
 
 const std::vector<GenericVertex>& generic_dop_vertices(int k) {
-  static const auto sets = [] {
-    std::array<std::vector<GenericVertex>, kDopSizes.size()> all;
+  // Never destroyed: a thread may still search while the program ends.
+  static const auto& sets = *[] {
+    auto* const all = new std::array<std::vector<GenericVertex>, kDopSizes.size()>;
     for (std::size_t i = 0; i < kDopSizes.size(); ++i)
-      all[i] = compute_vertices(dop_directions(kDopSizes[i]));
+      (*all)[i] = compute_vertices(dop_directions(kDopSizes[i]));
     return all;
   }();
   return sets[dop_size_index(k)];

@@ -44,10 +44,11 @@ void add_hands(py::module_& module) {
       .def(py::init(&hand_shape), py::arg("length_m") = HandShape{}.length_m,
            py::arg("breadth_m") = HandShape{}.breadth_m, py::arg("side") = "right",
            "length_m: from the crease of the wrist to the tip of the middle finger. breadth_m: across the knuckles.")
-      .def_readonly("length_m", &HandShape::length_m)
-      .def_readonly("breadth_m", &HandShape::breadth_m)
-      .def_property_readonly("side",
-                             [](const HandShape& shape) { return shape.side == HandSide::kLeft ? "left" : "right"; });
+      .def_readonly("length_m", &HandShape::length_m, "from the crease of the wrist to the tip of the middle finger")
+      .def_readonly("breadth_m", &HandShape::breadth_m, "across the knuckles")
+      .def_property_readonly(
+          "side", [](const HandShape& shape) { return shape.side == HandSide::kLeft ? "left" : "right"; },
+          "'right' or 'left'");
 
   py::class_<Posture>(module, "Posture", "The pose of a hand's root R (the wrist) and the angles of its joints.")
       .def(py::init(&posture), py::arg("X_WR"), py::arg("angles") = py::none(),

@@ -16,6 +16,7 @@
 #include "arrays.h"
 #include "mesh_files.h"
 #include "module.h"
+#include "trees.h"
 #include "unlocked.h"
 
 namespace glissade::python {
@@ -111,10 +112,17 @@ SceneMesh shape(const std::string& name, const py::kwargs& parameters) {
 
 }  // namespace
 
+std::shared_ptr<collision::DopTree> tree_from(const py::object& argument, const std::string& name) {
+  if (py::isinstance<collision::DopTree>(argument)) return argument.cast<std::shared_ptr<collision::DopTree>>();
+  if (py::isinstance<SceneMesh>(argument))
+    throw py::type_error(name + " is a Mesh; build a tree of it first, once for all queries: glissade.Tree(mesh)");
+  throw py::type_error(name + " is no Tree but of type " + py::type::of(argument).attr("__name__").cast<std::string>());
+}
+
 void add_meshes(py::module_& module) {
   py::class_<SceneMesh>(module, "Mesh", R"(Triangles over an indexed set of vertices, in metres. Immutable.
 
-The surface may be open, non-manifold, self-intersecting and inconsistently oriented.)")
+A mesh is a surface without an inside. It may be open, non-manifold, self-intersecting and inconsistently oriented.)")
       .def(py::init(&mesh_from_arrays), py::arg("vertices"), py::arg("triangles"),
            R"(Copies a mesh from arrays.
 

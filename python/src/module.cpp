@@ -37,6 +37,7 @@ void refuse_objects_without_init(const pybind11::module_& module) {
 
 PYBIND11_MODULE(_glissade, module) {
   module.doc() = "The compiled part of glissade.";
+  module.attr("__module__") = "glissade";  // of all that is defined from here on, in messages and in help()
   module.attr("__version__") = GLISSADE_VERSION;
   pybind11::register_local_exception_translator(&translate);
   pybind11::options options;
@@ -54,4 +55,5 @@ PYBIND11_MODULE(_glissade, module) {
   glissade::python::add_recording(module);
   glissade::python::add_view(module);
   refuse_objects_without_init(module);
+  pybind11::delattr(module, "__module__");
 }

@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "guarded.h"
 #include "module.h"
+#include "trees.h"
 
 namespace glissade::python {
 
@@ -62,7 +63,8 @@ class Objects {
 
 using Pipeline = Guarded<Objects>;
 
-std::uint64_t add(Pipeline& pipeline, const std::shared_ptr<DopTree>& tree, const py::object& X_WO) {
+std::uint64_t add(Pipeline& pipeline, const py::object& of, const py::object& X_WO) {
+  const std::shared_ptr<DopTree> tree = tree_from(of, "tree");
   const Eigen::Isometry3d pose = X_WO.is_none() ? Eigen::Isometry3d::Identity() : pose_from(X_WO, "X_WO");
   return pipeline.with([&](Objects& objects) { return objects.add(tree, pose); });
 }
@@ -92,11 +94,11 @@ section 2.)")
           py::arg("threads") = 0,
           "capacity: most objects. greatest_distance: the largest distance of `step`, metres. threads: 0: one for each "
           "processor.")
-      .def("add", &add, py::arg("tree").none(false), py::arg("X_WO") = py::none(),
+      .def("add", &add, py::arg("tree"), py::arg("X_WO") = py::none(),
            "Adds an object at a pose and returns its number.")
       .def(
           "remove", [](Pipeline& of, std::uint64_t object) { of.with([&](Objects& all) { all.remove(object); }); },
-          py::arg("object"))
+          py::arg("object"), "Takes the object with this number out.")
       .def(
           "disable_pair",
           [](Pipeline& of, std::uint64_t a, std::uint64_t b) {

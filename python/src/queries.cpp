@@ -12,6 +12,7 @@
 #include "arrays.h"
 #include "for_each.h"
 #include "module.h"
+#include "trees.h"
 
 namespace glissade::python {
 
@@ -22,7 +23,15 @@ using collision::CoherentWorkspace;
 using collision::DopTree;
 using collision::QueryWorkspace;
 using collision::TrianglePair;
-using Tree = std::shared_ptr<DopTree>;
+
+/// The two trees of a query.
+struct Trees {
+  Trees(const py::object& tree_A, const py::object& tree_B)
+      : A(tree_from(tree_A, "tree_A")), B(tree_from(tree_B, "tree_B")) {}
+
+  std::shared_ptr<DopTree> A;
+  std::shared_ptr<DopTree> B;
+};
 
 /// Calls query(workspace, i) for each pose, with a workspace for each thread.
 template <typename Workspace, typename Query>
@@ -44,13 +53,14 @@ void for_each_pose(const Poses& X_AB, bool is_coherent, int threads, const Query
   }
 }
 
-py::object intersects(const Tree& tree_A, const Tree& tree_B, const py::object& poses, double tolerance,
+py::object intersects(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double tolerance,
                       bool is_coherent, int threads) {
+  const Trees trees(tree_A, tree_B);
   const Poses X_AB = poses_from(poses, "X_AB");
   py::array_t<bool> answers = new_array<bool>(X_AB.shape);
   bool* const answer = answers.mutable_data();
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    answer[i] = collision::intersects(*tree_A, *tree_B, X_AB.X[i], workspace, tolerance);
+    answer[i] = collision::intersects(*trees.A, *trees.B, X_AB.X[i], workspace, tolerance);
   });
   if (X_AB.is_single()) return py::bool_(*answer);
   return answers;
@@ -81,13 +91,14 @@ void check_is_list(const Poses& X_AB) {
   if (X_AB.shape.size() > 1) throw std::invalid_argument("X_AB must be one pose or a list of poses");
 }
 
-py::object pairs(const Tree& tree_A, const Tree& tree_B, const py::object& poses, double tolerance, bool is_coherent,
-                 int threads) {
+py::object pairs(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double tolerance,
+                 bool is_coherent, int threads) {
+  const Trees trees(tree_A, tree_B);
   const Poses X_AB = poses_from(poses, "X_AB");
   check_is_list(X_AB);
   std::vector<std::vector<TrianglePair>> answers(X_AB.X.size());
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    collision::intersecting_pairs(*tree_A, *tree_B, X_AB.X[i], workspace, answers[i], tolerance);
+    collision::intersecting_pairs(*trees.A, *trees.B, X_AB.X[i], workspace, answers[i], tolerance);
   });
   return one_or_list(X_AB, answers, array_of);
 }
@@ -140,37 +151,40 @@ py::object points_of(const std::vector<ClosePair>& pairs) {
   return py::cast(std::move(points));
 }
 
-py::object pairs_within(const Tree& tree_A, const Tree& tree_B, const py::object& poses, double distance,
+py::object pairs_within(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double distance,
                         bool is_coherent, int threads) {
+  const Trees trees(tree_A, tree_B);
   const Poses X_AB = poses_from(poses, "X_AB");
   check_is_list(X_AB);
   std::vector<std::vector<ClosePair>> answers(X_AB.X.size());
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    collision::pairs_within(*tree_A, *tree_B, X_AB.X[i], distance, workspace, answers[i]);
+    collision::pairs_within(*trees.A, *trees.B, X_AB.X[i], distance, workspace, answers[i]);
   });
   return one_or_list(X_AB, answers, points_of);
 }
 
-ClosestPoints distance(const Tree& tree_A, const Tree& tree_B, const py::object& poses, double limit, bool is_coherent,
-                       int threads) {
+ClosestPoints distance(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double limit,
+                       bool is_coherent, int threads) {
+  const Trees trees(tree_A, tree_B);
   const Poses X_AB = poses_from(poses, "X_AB");
   ClosestPoints points(X_AB.shape);
   const Row row(points);
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    const collision::MeshDistance answer = collision::distance(*tree_A, *tree_B, X_AB.X[i], workspace, limit);
+    const collision::MeshDistance answer = collision::distance(*trees.A, *trees.B, X_AB.X[i], workspace, limit);
     row.set(i, answer.distance, answer.nearest);
   });
   return points;
 }
 
-py::array_t<double> way_out(const Tree& tree_A, const Tree& tree_B, const py::object& poses, double clearance,
-                            int threads) {
+py::array_t<double> way_out(const py::object& tree_A, const py::object& tree_B, const py::object& poses,
+                            double clearance, int threads) {
+  const Trees trees(tree_A, tree_B);
   const Poses X_AB = poses_from(poses, "X_AB");
   py::array_t<double> ways = new_array<double>(X_AB.shape, {3});
   double* const way = ways.mutable_data();
   for_each_pose<QueryWorkspace>(X_AB, threads, [&](QueryWorkspace& workspace, std::size_t i) {
     Eigen::Map<Eigen::Vector3d>(way + 3 * i) =
-        collision::find_way_out(*tree_A, *tree_B, X_AB.X[i], workspace, clearance).way_out_A;
+        collision::find_way_out(*trees.A, *trees.B, X_AB.X[i], workspace, clearance).way_out_A;
   });
   return ways;
 }
@@ -180,8 +194,10 @@ void add_closest_points(py::module_& module) {
                             "The closest points of two meshes for each pose, or of each pair of triangles.")
       .def_readonly("distance", &ClosestPoints::distance,
                     "(…) metres: 0 where the meshes intersect, the limit where nothing is nearer")
-      .def_readonly("p_A", &ClosestPoints::p_A, "(…, 3) on A, in the frame of A, metres; NaN where there is none")
-      .def_readonly("p_B", &ClosestPoints::p_B, "(…, 3) on B, in the frame of A, metres; NaN where there is none")
+      .def_readonly(
+          "p_A", &ClosestPoints::p_A,
+          "(…, 3) on A, in the frame of A, metres; NaN where the meshes intersect or nothing is nearer than the limit")
+      .def_readonly("p_B", &ClosestPoints::p_B, "(…, 3) on B, in the frame of A, metres; NaN like p_A")
       .def_readonly("triangles", &ClosestPoints::triangles,
                     "(…, 2) numbers of the triangles of A and B; -1 where there are no closest points")
       .def("__len__", [](const ClosestPoints& points) { return py::len(points.distance); })
@@ -194,8 +210,8 @@ void add_closest_points(py::module_& module) {
 
 void add_queries(py::module_& module) {
   add_closest_points(module);
-  const auto A = py::arg("tree_A").none(false);
-  const auto B = py::arg("tree_B").none(false);
+  const auto A = py::arg("tree_A");
+  const auto B = py::arg("tree_B");
   const auto poses = py::arg("X_AB");
   const auto only_names = py::kw_only();
   const auto coherent = py::arg("coherent") = false;
@@ -203,8 +219,9 @@ void add_queries(py::module_& module) {
   module.def("intersects", &intersects, A, B, poses, py::arg("tolerance") = 0.0, only_names, coherent, threads,
              R"(Whether two meshes are at most `tolerance` metres apart; with 0, whether they intersect.
 
-X_AB: the pose of B in the frame of A, (7,) or (4, 4), or n of them, (n, 7) or (n, 4, 4). The answer is a bool, or an
-array of n. It is exact: that of real arithmetic on the vertices of A and the transformed vertices of B. Touching counts.
+tree_A, tree_B: a Tree of each mesh. X_AB: the pose of B in the frame of A, (7,) or (4, 4), or n of them, (n, 7) or
+(n, 4, 4). The answer is a bool, or an array of n. It is exact: that of real arithmetic on the vertices of A and the
+transformed vertices of B. Touching counts. A mesh has no inside: B wholly inside a closed A does not intersect it.
 coherent: the poses are a path, so neighbours share their work; the answers are the same. threads: that work on the poses.
 Other Python threads run meanwhile. Raises ValueError, naming the pose, for a pose that is no rigid one.)");
   module.def("pairs", &pairs, A, B, poses, py::arg("tolerance") = 0.0, only_names, coherent, threads,
@@ -221,13 +238,15 @@ see `intersects`.)");
              coherent, threads,
              R"(The least distance of two meshes, if it is less than `limit` metres, with the closest points.
 
-Returns a ClosestPoints with an entry for each pose. A small limit saves time. For the other arguments, see `intersects`.)");
+Returns a ClosestPoints with an entry for each pose: 0 and NaN points where the meshes intersect. The distance is that of
+the surfaces, also for B wholly inside a closed A. A small limit saves time. For the other arguments, see `intersects`.)");
   module.def(
       "way_out", &way_out, A, B, poses, py::arg("clearance") = 0.0, only_names, threads,
       R"(A short translation of B, in the frame of A, after which the meshes are farther than `clearance` metres apart.
 
-Returns (3,) or (n, 3) metres: zero where they already are. Its length is an upper bound of the depth of penetration, which
-a query at the translated pose has confirmed. For the other arguments, see `intersects`.)");
+Returns (3,) or (n, 3) metres: zero where they already are, as where B is wholly inside a closed A. Its length is an upper
+bound of the depth of penetration, which a query at the translated pose has confirmed. For the other arguments, see
+`intersects`.)");
 }
 
 }  // namespace glissade::python

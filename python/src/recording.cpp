@@ -290,7 +290,7 @@ void add_recording(py::module_& module) {
 
 Each table is a structured array of NumPy: recording.parts["X_WV"] has the shape (n, 4, 4). The names of the fields have
 units; docs/python.md lists them.)")
-      .def_readonly("path", &Recording::path)
+      .def_readonly("path", &Recording::path, "of the file")
       .def_readonly("ticks", &Recording::ticks, "a row for each tick: when it began, and how long it lasted")
       .def_readonly("parts", &Recording::parts, "a row for each tick and part: ghost, visible part and state")
       .def_readonly("hands", &Recording::hands, "a row for each tick and hand: force, torques, grasp and reasons")

@@ -89,7 +89,7 @@ void set_overlap(SlidingRules& rules, const std::string& name) {
 
 void add_rules(py::module_& module) {
   py::class_<SlidingRules>(module, "SlidingRules", "The rules of contact for all parts of a scene.")
-      .def(py::init<>())
+      .def(py::init<>(), "Makes the rules of a simulation that takes the time that it needs.")
       .def_static("real_time", &contact::real_time_rules,
                   "Rules for a simulation in real time: few cycles, a search thread and short searches.")
       .def_readwrite("max_cycles", &SlidingRules::max_cycles, "most cycles of a call, at least 1")
@@ -111,8 +111,10 @@ void add_rules(py::module_& module) {
           &set_overlap, "'refuse' or 'depenetrate' parts that overlap an obstacle at the start")
       .def_readwrite("spiral_search", &SlidingRules::spiral_search, "search for a hole as a hand with a peg does")
       .def_readwrite("has_search_thread", &SlidingRules::has_search_thread, "search in advance, in a thread of its own")
-      .def_readwrite("contacts_ahead_ms", &SlidingRules::contacts_ahead_ms)
-      .def_readwrite("affordable_pairs", &SlidingRules::affordable_pairs)
+      .def_readwrite("contacts_ahead_ms", &SlidingRules::contacts_ahead_ms,
+                     "also find the contacts that the ghost may reach within this time")
+      .def_readwrite("affordable_pairs", &SlidingRules::affordable_pairs,
+                     "pairs of triangles that a search may find, at least 1; with more, steps become shorter")
       .def_readwrite("work_budget", &SlidingRules::work_budget,
                      "most work of a call, about nanoseconds; None: no limit");
 }
@@ -129,7 +131,7 @@ std::vector<std::string> names_of(const Scene& scene) {
 void add_scene(py::module_& module) {
   add_rules(module);
   py::class_<Scene>(module, "Scene", "Objects with names, hands, and the rules of contact, before anything moves.")
-      .def(py::init<>())
+      .def(py::init<>(), "Makes a scene without objects and hands.")
       .def_static("read", &read, py::arg("path"),
                   "Reads a scene file with its meshes. Raises ValueError with file, line and key.")
       .def_static("parse", &parse, py::arg("text"), py::arg("source") = "the scene", py::arg("base_folder") = ".",
@@ -148,7 +150,7 @@ that stop nothing, ascending.)")
       .def_property_readonly("names", &names_of, "the names of all objects")
       .def_property_readonly("movable_names", &Scene::movable_names, "the names of the parts, in their order")
       .def_readwrite("hands", &Scene::hands, "list of HandShape, a copy")
-      .def_readwrite("rules", &Scene::rules)
+      .def_readwrite("rules", &Scene::rules, "the SlidingRules of all parts")
       .def_property(
           "metaphor", [](const Scene& scene) { return std::string(contact::name_of(scene.metaphor)); },
           [](Scene& scene, const std::string& name) { scene.metaphor = metaphor_from(name); },

@@ -37,48 +37,71 @@ Server::Server(const simulation::Scene& scene, std::vector<std::shared_ptr<Glove
 
 void Server::start() {
   if (phase_ != Phase::kNew) throw std::runtime_error("a server starts once; make another one");
-  std::vector<std::shared_ptr<void>> claims;
-  std::vector<haptics::HandInLoop<devices::GloveDevice>> hands;
+  Claims claims;
+  Hands hands;
+  haptics::RecordingHead head;
   for (std::size_t g = 0; g < gloves_.size(); ++g) {
     claims.push_back(gloves_[g]->claim("glove " + std::to_string(g)));
-    hands.emplace_back(&gloves_[g]->device());
+    devices::GloveDevice& device = gloves_[g]->device();
+    hands.emplace_back(&device);
+    const auto number = static_cast<std::int64_t>(g) + 1;
+    head.gloves.push_back({.device = number, .session = number, .descriptor = device.descriptor()});
   }
-  if (!record_.empty()) record_to(record_);
-  loop_ = std::make_unique<haptics::HapticServer>(
-      hands, simulation_->engine(),
-      haptics::HapticServerOptions{.sink = [this](const devices::HapticState& state) { frames_.publish(state); },
-                                   .observer = observer_.get()});
-  claims_ = std::move(claims);
-  phase_ = Phase::kRunning;
+  phase_ = Phase::kStarting;
+  try {
+    std::unique_lock starting(loop_mutex_);  // before other threads run, which may wait for the end of the start
+    const Unlocked unlocked;
+    start_loop(std::move(starting), std::move(claims), hands, std::move(head));
+  } catch (...) {
+    if (phase_ == Phase::kStarting) phase_ = Phase::kNew;
+    throw;
+  }
+  if (phase_ == Phase::kStarting) phase_ = Phase::kRunning;  // else another thread has ended it
 }
 
-void Server::record_to(const std::string& file) {
-  haptics::RecordingHead head;
-  for (const std::shared_ptr<Glove>& glove : gloves_) {
-    const auto number = static_cast<std::int64_t>(head.gloves.size()) + 1;
-    head.gloves.push_back({.device = number, .session = number, .descriptor = glove->device().descriptor()});
+/// The recording is opened last: a start that fails leaves an older one alone.
+void Server::start_loop(std::unique_lock<std::mutex> /*starting*/, Claims claims, const Hands& hands,
+                        haptics::RecordingHead head) {
+  std::unique_ptr<LateRecorder> recorder;
+  std::unique_ptr<haptics::BackgroundObserver> observer;
+  std::unique_ptr<haptics::HapticServer> loop;
+  std::unique_lock<std::mutex> opening;
+  if (!record_.empty()) {
+    recorder = std::make_unique<LateRecorder>();
+    observer = std::make_unique<haptics::BackgroundObserver>(std::vector<haptics::LoopObserver*>{recorder.get()});
+    opening = recorder->hold();
   }
-  observer_.reset();  // of a start that failed
-  recorder_ = std::make_unique<haptics::LogRecorder>(file, std::move(head));
-  observer_ = std::make_unique<haptics::BackgroundObserver>(std::vector<haptics::LoopObserver*>{recorder_.get()});
+  loop = std::make_unique<haptics::HapticServer>(
+      hands, simulation_->engine(),
+      haptics::HapticServerOptions{.sink = [this](const devices::HapticState& state) { frames_.publish(state); },
+                                   .observer = observer.get()});
+  if (recorder) recorder->open(record_, std::move(head));
+  recorder_ = std::move(recorder);
+  observer_ = std::move(observer);
+  loop_ = std::move(loop);
+  claims_ = std::move(claims);
 }
 
 void Server::stop() {
+  if (phase_ == Phase::kStarting) {
+    const Unlocked unlocked;
+    const std::lock_guard until_started(loop_mutex_);
+  }
   if (phase_ == Phase::kNew) return;
-  if (phase_ == Phase::kRunning || phase_ == Phase::kEnding) {
+  if (phase_ != Phase::kEnded) {
     phase_ = Phase::kEnding;
     const Unlocked unlocked;  // a driver in Python goes on, so its device feels the force fade
     end_loop();
   }
   phase_ = Phase::kEnded;
-  if (const std::unique_ptr<haptics::LogRecorder> recorder = std::move(recorder_)) {
+  if (const std::unique_ptr<LateRecorder> recorder = std::move(recorder_)) {
     const Unlocked unlocked;
     recorder->close();
   }
 }
 
 void Server::end_loop() {
-  const std::lock_guard lock(end_mutex_);
+  const std::lock_guard lock(loop_mutex_);
   if (claims_.empty()) return;  // another thread has ended it meanwhile
   loop_->stop();
   claims_.clear();
@@ -106,12 +129,12 @@ void Server::abandon() noexcept {
 }
 
 haptics::HapticServer& Server::loop() {
-  if (loop_ == nullptr) throw std::runtime_error("the server has not started");
+  if (!has_loop()) throw std::runtime_error("the server has not started");
   return *loop_;
 }
 
 void Server::check() const {
-  if (loop_ && loop_->has_failed()) throw std::runtime_error(loop_->failure());
+  if (has_loop() && loop_->has_failed()) throw std::runtime_error(loop_->failure());
 }
 
 devices::HapticState Server::newest() {
@@ -237,7 +260,7 @@ void add_life(Type& type) {
 
 gloves: first those of the scene's hands. A hand without fingers takes the first part if its glove is closed at the start;
 later, its grip decides. The scene should have the rules of SlidingRules.real_time(). record: a file for an event log of
-all ticks; the start overwrites it. Raises ValueError for a scene that cannot be simulated, and for a wrong number of gloves.)");
+all ticks; a start that succeeds overwrites it. Raises ValueError for a scene that cannot be simulated, and for a wrong number of gloves.)");
   type.def("start", &start, R"(Starts the loop, once; `with` does so too.
 
 Warns (RuntimeWarning) if the system does not grant real-time priority. Raises ValueError for a glove in use.)");

@@ -20,6 +20,30 @@
 
 namespace glissade::python {
 
+/// Writes a log that is opened after the loop has started. Until then, the thread that brings records waits.
+class LateRecorder final : public haptics::LoopObserver {
+ public:
+  /// Makes records wait for as long as the result lives. Afterwards they are lost if `open` was not called.
+  [[nodiscard]] std::unique_lock<std::mutex> hold() { return std::unique_lock(mutex_); }
+  /// While records wait. Throws what the constructor of haptics::LogRecorder throws.
+  void open(const std::string& file, haptics::RecordingHead head) { log_.emplace(file, std::move(head)); }
+  /// After the last record. Throws what haptics::LogRecorder::close throws.
+  void close() { log_->close(); }
+
+  void after_tick(const haptics::TickRecord& record) noexcept override {
+    const std::lock_guard lock(mutex_);
+    if (log_) log_->after_tick(record);
+  }
+  void after_answer(const haptics::AnswerRecord& record) noexcept override {
+    const std::lock_guard lock(mutex_);
+    if (log_) log_->after_answer(record);
+  }
+
+ private:
+  std::mutex mutex_;
+  std::optional<haptics::LogRecorder> log_;
+};
+
 class Server final : public Running {
  public:
   /// Builds the simulation of the scene. `record`: a file, or empty.
@@ -27,7 +51,7 @@ class Server final : public Running {
   ~Server() override { end(); }
 
   /// Starts the loop, once. The caller holds the interpreter lock. Throws std::invalid_argument for a glove in use, and
-  /// what the constructors of the loop and the recorder throw.
+  /// what the constructors of the loop and the recorder throw; then it may be called again.
   void start();
   /// Lets the forces fade, and ends the loop. Throws std::runtime_error if the recording is not whole.
   void stop();
@@ -50,11 +74,15 @@ class Server final : public Running {
   std::size_t glove_count() const noexcept { return gloves_.size(); }
 
  private:
-  enum class Phase { kNew, kRunning, kEnding, kEnded };
+  enum class Phase { kNew, kStarting, kRunning, kEnding, kEnded };
+  using Claims = std::vector<std::shared_ptr<void>>;
+  using Hands = std::vector<haptics::HandInLoop<devices::GloveDevice>>;
 
-  void record_to(const std::string& file);
+  void start_loop(std::unique_lock<std::mutex> starting, Claims claims, const Hands& hands,
+                  haptics::RecordingHead head);
   void end_loop();
   void show_end();
+  bool has_loop() const noexcept { return phase_ > Phase::kStarting && loop_ != nullptr; }
 
   simulation::Scene scene_;
   std::vector<std::shared_ptr<Glove>> gloves_;
@@ -62,11 +90,12 @@ class Server final : public Running {
   std::unique_ptr<simulation::Simulation> simulation_;
   Phase phase_ = Phase::kNew;  ///< the interpreter lock guards it
   std::uint64_t lost_records_ = 0;
-  std::vector<std::shared_ptr<void>> claims_;  ///< until the loop has ended
-  std::mutex end_mutex_;                       ///< of threads that end the loop
-  std::mutex frame_mutex_;                     ///< of readers among each other
+  Claims claims_;           ///< until the loop has ended
+  std::mutex loop_mutex_;   ///< of threads that start or end the loop
+  std::mutex frame_mutex_;  ///< of readers among each other
   realtime::TripleBuffer<devices::HapticState> frames_;
-  std::unique_ptr<haptics::LogRecorder> recorder_;
+  // A start sets them without the interpreter lock, so only threads with `loop_mutex_` may read them meanwhile.
+  std::unique_ptr<LateRecorder> recorder_;
   std::unique_ptr<haptics::BackgroundObserver> observer_;
   std::unique_ptr<haptics::HapticServer> loop_;
 };

@@ -121,8 +121,9 @@ void add_contact(py::module_& module) {
       .def_property_readonly("gap", of(&contact::Contact::gap), "metres")
       .def_property_readonly("force", of(&contact::Contact::force), "newtons along n_W; 0 if the contact does not push")
       .def_property_readonly("friction_W", vector_of(&contact::Contact::friction_W), "(3,) newtons on the part")
-      .def_property_readonly("part_triangle", of(&contact::Contact::part_triangle))
-      .def_property_readonly("body_triangle", of(&contact::Contact::obstacle_triangle))
+      .def_property_readonly("part_triangle", of(&contact::Contact::part_triangle),
+                             "number of the triangle of the part")
+      .def_property_readonly("body_triangle", of(&contact::Contact::obstacle_triangle), "number of that of the body")
       .def("__repr__", [](const NamedContact& contact) {
         return "<glissade.Contact " + std::to_string(contact.tracked.id) + " with '" + contact.body + "'>";
       });
@@ -136,18 +137,21 @@ void add_motion(Type& type) {
       py::init(&make), py::arg("scene"),
       "Builds the trees of the scene. Raises ValueError, naming the object, for a scene that cannot be simulated.");
   type.def("advance", &advance, py::arg("X_WG"), milliseconds,
-           R"(Moves each part towards its ghost for `milliseconds`; call it once a millisecond of motion.
+           R"(Moves each part towards its ghost; call it once a millisecond of motion.
 
-X_WG: one pose for each part, (7,) or (4, 4) for a scene with one part, else (parts, 7) or (parts, 4, 4).)");
+X_WG: one pose for each part, (7,) or (4, 4) for a scene with one part, else (parts, 7) or (parts, 4, 4). milliseconds: the
+time since the call before. A caller that is late passes all of it, so that the part catches up.)");
   type.def(
       "advance_hands", &advance_hands, py::arg("postures"), milliseconds,
       "Moves each hand towards its Posture, and the parts with the hands. None: the tracking of this hand is lost.");
   type.def("follow", &follow, py::arg("X_WG"), milliseconds, py::kw_only(), py::arg("clearance") = false,
            R"(Advances along a path in one call, and returns a Track of all poses and forces.
 
-X_WG: (n, 7) or (n, 4, 4) for a scene with one part, else (n, parts, 7) or (n, parts, 4, 4). clearance: also the distance
-from the first part to the nearest other body, which costs several queries a pose. Other Python threads run meanwhile.
-Ctrl-C ends the path early; the simulation stays where it is.)");
+X_WG: (n, 7) or (n, 4, 4) for a scene with one part, else (n, parts, 7) or (n, parts, 4, 4). milliseconds: the time from one
+pose to the next. clearance: also the distance from the first part to the nearest other body, which costs several queries a
+pose; never 0, because a part keeps its margin. A part begins at the pose of its object, X_WB. For one pose, it moves by
+up to 30 mm. What a jump of the path leaves, it closes by 0.2 mm in a millisecond (metaphor 'force-feedback'), without a
+force. Other Python threads run meanwhile. Ctrl-C ends the path early; the simulation stays where it is.)");
   type.def("follow_hands", &follow_hands, py::arg("X_WR"), py::arg("angles"), milliseconds,
            R"(Like `follow`, for a scene with hands.
 
@@ -170,7 +174,7 @@ void add_parts(Type& type) {
   const auto clearance = [](GuardedSimulation& of, std::size_t p, double farthest) {
     return of_part(of, p, [&](Simulation& simulation, std::size_t i) { return simulation.clearance(i, farthest); });
   };
-  type.def_property_readonly("part_names", &part_names);
+  type.def_property_readonly("part_names", &part_names, "the names of the parts, in the order of their numbers");
   type.def("X_WV", X_WV, part, "(4, 4) the pose of the visible part");
   type.def("X_WG", X_WG, part, "(4, 4) the pose of its ghost");
   type.def("state", state, part, "one of SLIDING_STATES");

@@ -219,7 +219,7 @@ std::shared_ptr<View> view(const py::object& of, const py::object& scene, std::u
 void add_view(py::module_& module) {
   py::class_<View, std::shared_ptr<View>>(module, "View", "A page that shows something, until it is closed.")
       .def_property_readonly("url", &View::url, "the address of the page; only this machine can open it")
-      .def_property_readonly("is_open", &View::is_open)
+      .def_property_readonly("is_open", &View::is_open, "the page has not been closed")
       .def("close", &View::end, "Ends the page.")
       .def("__enter__", [](const std::shared_ptr<View>& view) { return view; })
       .def(

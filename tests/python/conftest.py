@@ -1,4 +1,4 @@
-"""What several tests share: boxes, random poses, and answers of the library in C++."""
+"""What several tests share: boxes, gloves, random poses, and answers of the library in C++."""
 
 import os
 import subprocess
@@ -32,6 +32,31 @@ def box_on_plate(**options):
     box = glissade.Mesh.shape("box", size_x_m=0.1, size_y_m=0.06, size_z_m=0.04, triangles=1200)
     scene.add("box", box, at(0, 0, 0.03), movable=True, **options)
     return scene
+
+
+def real_time_scene(**options):
+    scene = box_on_plate(**options)
+    scene.rules = glissade.SlidingRules.real_time()
+    return scene
+
+
+def pressing_glove():
+    """Goes down in half a second, to 20 mm deeper than the plate lets the box."""
+    return glissade.SimulatedGlove([0, 0.5], [at(0, 0, 0.1), at(0, 0, 0.07)])
+
+
+def arm(**limits):
+    """A grounded arm of 10 N at 200 Hz, with a driver in Python."""
+    usual = dict(
+        max_force_N=10,
+        max_torque_Nm=1,
+        max_stiffness_N_per_m=500,
+        max_rotational_stiffness_Nm_per_rad=5,
+        damping_Ns_per_m=20,
+        rotational_damping_Nms_per_rad=0.1,
+        update_rate_Hz=200,
+    )
+    return glissade.RelayGlove("arm", **{**usual, **limits})
 
 
 def at(x, y, z):

@@ -112,15 +112,25 @@ def test_a_warning_names_the_line_that_read_the_mesh(tmp_path):
         assert caught[0].filename == __file__
 
 
-def test_none_is_no_tree(cube):
+@pytest.mark.parametrize(
+    "wrong, sentence",
+    [
+        (None, "tree{} is no Tree but of type NoneType"),
+        (np.eye(4), "tree{} is no Tree but of type ndarray"),
+        (glissade.Mesh.shape("box"), "tree{} is a Mesh; build a tree of it first, once for all queries: glissade.Tree(mesh)"),
+    ],
+)
+def test_what_is_no_tree_is_named(cube, wrong, sentence):
+    def raises(name, call):
+        with pytest.raises(TypeError) as caught:
+            call()
+        assert str(caught.value) == sentence.format(name)
+
     for query in [glissade.intersects, glissade.pairs, glissade.distance, glissade.way_out]:
-        for trees in [(None, cube), (cube, None)]:
-            with pytest.raises(TypeError):
-                query(*trees, at(0, 0, 0))
-    with pytest.raises(TypeError):
-        glissade.pairs_within(None, cube, at(0, 0, 0), 0.1)
-    with pytest.raises(TypeError):
-        glissade.Pipeline(threads=1).add(None)
+        raises("_A", lambda query=query: query(wrong, cube, at(0, 0, 0)))
+        raises("_B", lambda query=query: query(cube, wrong, at(0, 0, 0)))
+    raises("_A", lambda: glissade.pairs_within(wrong, cube, at(0, 0, 0), 0.1))
+    raises("", lambda: glissade.Pipeline(threads=1).add(wrong))
 
 
 def test_arrays_that_no_memory_holds(cube):

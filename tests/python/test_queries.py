@@ -45,6 +45,20 @@ def test_the_way_out_frees_the_cube(cube):
     assert not glissade.intersects(cube, cube, at(0.09 + way[0], 0.01 + way[1], way[2]), tolerance=1e-3)
 
 
+def test_a_mesh_has_no_inside(cube):
+    ball = glissade.Tree(glissade.Mesh.shape("sphere", radius_m=0.01))
+    inside = at(0.02, 0, 0)  # 20 mm from the face at x = 50 mm
+    assert not glissade.intersects(cube, ball, inside)
+    assert glissade.distance(cube, ball, inside).distance == pytest.approx(0.02, abs=1e-4)
+    assert glissade.way_out(cube, ball, inside).tolist() == [0, 0, 0]
+
+
+def test_meshes_that_intersect_have_no_closest_points(cube):
+    points = glissade.distance(cube, cube, [at(0.05, 0, 0), at(0.15, 0, 0)])
+    assert points.distance[0] == 0 and np.isnan(points.p_A[0]).all() and np.isnan(points.p_B[0]).all()
+    assert points.triangles[0].tolist() == [-1, -1] and np.isfinite(points.p_A[1]).all()
+
+
 def test_rows_and_matrices_of_poses_give_the_same_answers(cube):
     rows = [at(0.15, 0, 0), [0.1, 0.1, 0, np.sqrt(0.5), 0, 0, np.sqrt(0.5)]]  # the second turned by 90 degrees about z
     matrices = np.tile(np.eye(4), (2, 1, 1))

@@ -1,11 +1,13 @@
 """Event logs as tables of NumPy."""
 
+import os
 import pathlib
 import re
+import threading
 
 import numpy as np
 import pytest
-from conftest import at, box_on_plate
+from conftest import arm, at, box_on_plate, pressing_glove, real_time_scene
 
 import glissade
 
@@ -101,11 +103,44 @@ def test_no_event_log(content, tmp_path):
         glissade.read_recording(tmp_path / "table.csv")
 
 
-def test_a_file_that_cannot_be_written_is_named():
-    glove = glissade.SimulatedGlove([0, 1], [at(0, 0, 0)] * 2)
-    server = glissade.HapticServer(box_on_plate(), glove, record="/nowhere/log")
-    with pytest.raises(ValueError, match="/nowhere/log"):
+def test_a_start_whose_file_cannot_be_written_names_it_and_may_be_repeated(tmp_path):
+    path = tmp_path / "folder" / "log"
+    server = glissade.HapticServer(real_time_scene(), pressing_glove(), record=path)
+    with pytest.raises(ValueError, match=str(path)):
         server.start()
+    assert not server.is_running
+    path.parent.mkdir()
+    with server:
+        while server.statistics()["ticks"] < 50:
+            server.run_for(0.01)
+    assert len(glissade.read_recording(path).ticks) >= 50
+
+
+def test_a_start_that_fails_leaves_an_older_recording_alone(tmp_path):
+    path = tmp_path / "log"
+    path.write_bytes(b"older")
+    server = glissade.HapticServer(real_time_scene(), arm(max_stiffness_N_per_m=0), record=path)
+    with pytest.raises(ValueError, match="stiffness"):
+        server.start()
+    assert path.read_bytes() == b"older"
+
+
+def test_other_threads_run_while_a_start_opens_its_recording(tmp_path):
+    path = tmp_path / "pipe"
+    os.mkfifo(path)
+    server = glissade.HapticServer(real_time_scene(), pressing_glove(), record=path)
+    starter = threading.Thread(target=server.start)
+    starter.start()
+    with open(path, "rb") as pipe:  # until now, the start has waited for a reader
+        read = []
+        reader = threading.Thread(target=lambda: read.append(pipe.read()))
+        reader.start()
+        starter.join()
+        while server.frame().tick == 0:
+            server.run_for(0.01)
+        server.stop()
+        reader.join()
+    assert b"GLOVE_INFO" in read[0]
 
 
 def test_a_path_with_a_null_byte_is_no_path():

@@ -6,23 +6,12 @@ import warnings
 
 import numpy as np
 import pytest
-from conftest import at, box_on_plate
+from conftest import arm, at, pressing_glove, real_time_scene
 
 import glissade
 
 # A machine of the tests need not grant real-time priority.
 pytestmark = pytest.mark.filterwarnings("ignore:SCHED_FIFO")
-
-
-def real_time_scene(**options):
-    scene = box_on_plate(**options)
-    scene.rules = glissade.SlidingRules.real_time()
-    return scene
-
-
-def pressing_glove():
-    """Goes down in half a second, to 20 mm deeper than the plate lets the box."""
-    return glissade.SimulatedGlove([0, 0.5], [at(0, 0, 0.1), at(0, 0, 0.07)])
 
 
 def wait_for(server, condition, seconds=20.0):
@@ -34,20 +23,6 @@ def wait_for(server, condition, seconds=20.0):
             return frame
         server.run_for(0.005)
     raise AssertionError("it never came")
-
-
-def arm(**limits):
-    """A grounded arm of 10 N at 200 Hz, with a driver in Python."""
-    usual = dict(
-        max_force_N=10,
-        max_torque_Nm=1,
-        max_stiffness_N_per_m=500,
-        max_rotational_stiffness_Nm_per_rad=5,
-        damping_Ns_per_m=20,
-        rotational_damping_Nms_per_rad=0.1,
-        update_rate_Hz=200,
-    )
-    return glissade.RelayGlove("arm", **{**usual, **limits})
 
 
 def drive(glove, height, turns):

@@ -37,6 +37,16 @@ def test_a_path_in_one_call_is_the_path_step_by_step():
     assert (track.clearance > 0).all() and track.pushing[-1] > 0 and track.pushing[0] == 0
 
 
+@pytest.mark.parametrize("milliseconds", [1.0, 10.0])
+def test_a_part_follows_a_jump_by_30_mm_at_once_and_then_by_a_fifth_of_a_metre_a_second(milliseconds):
+    simulation = glissade.Simulation(box_on_plate())  # at the height of 30 mm
+    near = simulation.follow([at(0, 0, 0.05)], milliseconds)
+    assert near.X_WV[0, 2, 3] == pytest.approx(0.05, abs=1e-9)
+    far = simulation.follow(np.tile(at(0, 0, 0.25), (20, 1)), milliseconds)
+    assert 0.079 < far.X_WV[0, 2, 3] <= 0.08 and (far.f_W == 0).all() and far.state[0] == "catching-up"
+    np.testing.assert_allclose(np.diff(far.X_WV[:, 2, 3]), 2e-4 * milliseconds, atol=1e-6)
+
+
 def test_a_path_without_poses_is_a_table_without_rows():
     track = glissade.Simulation(box_on_plate()).follow(np.zeros((0, 7)), clearance=True)
     assert len(track) == 0 and track.X_WV.shape == (0, 4, 4) and track.clearance.shape == (0,)

@@ -69,6 +69,19 @@ def test_subclasses_that_initialize_work():
     assert glissade.Tree(Named("box", glissade.Mesh.shape("box"))).radius > 0
 
 
+@pytest.mark.parametrize("name", glissade.__all__)
+def test_everything_belongs_to_the_package_and_has_a_docstring(name):
+    thing = getattr(glissade, name)
+    if not callable(thing):
+        return
+    assert thing.__module__ == "glissade" and "_glissade" not in thing.__doc__
+    for member in vars(thing) if isinstance(thing, type) else []:
+        if member[0] == "_":
+            continue
+        doc = getattr(thing, member).__doc__ or ""
+        assert "_glissade" not in doc and re.sub(rf"^{member}\(.*\n", "", doc).strip(), member
+
+
 def stub_functions():
     """Name, and the definition in the stubs, of each function and method."""
     for node in STUBS:
