@@ -61,9 +61,9 @@ double seconds(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
-using Type = py::class_<HapticState>;
+using FrameType = py::class_<HapticState>;
 
-void add_parts(Type& type) {
+void add_parts(FrameType& type) {
   type.def_property_readonly(
       "X_WV", [](const HapticState& f) { return poses(parts_of(f), [](const auto& part) { return part.X_WV; }); },
       "(parts, 4, 4) the visible parts");
@@ -82,7 +82,7 @@ void add_parts(Type& type) {
       "for each part: the number of contacts that push");
 }
 
-void add_hands(Type& type) {
+void add_hands(FrameType& type) {
   const auto vectors = [](Eigen::Vector3d HapticHandState::*member) {
     return [member](const HapticState& f) {
       return rows(hands_of(f), 3, [member](const HapticHandState& hand) { return hand.*member; });
@@ -138,7 +138,7 @@ void add_hands(Type& type) {
       "for each hand: 'none', 'push', 'precision' or 'power'; only of hands with fingers");
 }
 
-void add_contacts(Type& type) {
+void add_contacts(FrameType& type) {
   type.def_property_readonly(
       "contact_parts",
       [](const HapticState& f) { return each(contacts_of(f), [](const auto& contact) { return contact.part; }); },
@@ -163,7 +163,7 @@ void add_contacts(Type& type) {
 }  // namespace
 
 void add_frame(py::module_& module) {
-  Type type(module, "Frame", "The haptic loop after one tick. All of it is of the same tick.");
+  FrameType type(module, "Frame", "The haptic loop after one tick. All of it is of the same tick.");
   type.def_readonly("tick", &HapticState::sequence, "0 before the first tick");
   type.def_property_readonly(
       "time_s", [](const HapticState& f) { return seconds(f.time); }, "on the clock of time.monotonic()");

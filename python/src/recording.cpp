@@ -68,7 +68,7 @@ struct GloveRow {
   double command_age_s;
 };
 
-double seconds(std::chrono::nanoseconds time) {
+double seconds_of(std::chrono::nanoseconds time) {
   return std::chrono::duration<double>(time).count();
 }
 
@@ -117,9 +117,9 @@ void Rows::add(const devices::LogEvent& event) {
 }
 
 void Rows::add(const haptics::TickRecord& tick) {
-  ticks.push_back({.t_s = seconds(tick.time),
-                   .lateness_us = 1e6 * seconds(tick.time - tick.deadline),
-                   .duration_us = 1e6 * seconds(tick.duration),
+  ticks.push_back({.t_s = seconds_of(tick.time),
+                   .lateness_us = 1e6 * seconds_of(tick.time - tick.deadline),
+                   .duration_us = 1e6 * seconds_of(tick.duration),
                    .tick = tick.number,
                    .contact_set = tick.set_sequence,
                    .is_stopped = tick.is_stopped});
@@ -130,23 +130,23 @@ void Rows::add(const devices::HapticState& state) {
   part_count = std::max(part_count, state.part_count);
   for (std::int32_t p = 0; p < state.part_count; ++p) {
     const devices::HapticPartState& part = state.parts[static_cast<std::size_t>(p)];
-    PartRow& row = parts.emplace_back(PartRow{.t_s = seconds(state.time), .tick = state.sequence, .part = p});
+    PartRow& row = parts.emplace_back(PartRow{.t_s = seconds_of(state.time), .tick = state.sequence, .part = p});
     row.contacts = part.contact_count;
     copy(part.X_WG, row.X_WG);
     copy(part.X_WV, row.X_WV);
-    row.contact_set_age_s = seconds(state.contact_set_age);
+    row.contact_set_age_s = seconds_of(state.contact_set_age);
     copy(devices::name_of(part.state), row.state);
   }
   for (std::int32_t h = 0; h < state.hand_count; ++h) {
     const devices::HapticHandState& hand = state.hands[static_cast<std::size_t>(h)];
-    HandRow& row = hands.emplace_back(HandRow{.t_s = seconds(state.time), .tick = state.sequence, .hand = h});
+    HandRow& row = hands.emplace_back(HandRow{.t_s = seconds_of(state.time), .tick = state.sequence, .hand = h});
     row.part = hand.part;
     copy(hand.force_W, row.f_W_N);
     copy(hand.torque_V_W, row.t_W_Nm);
     copy(hand.joint_torques, row.joint_torques_Nm);
     row.contact_share = hand.contact_share;
-    row.state_age_s = seconds(hand.state_age);
-    row.command_age_s = seconds(hand.command_age);
+    row.state_age_s = seconds_of(hand.state_age);
+    row.command_age_s = seconds_of(hand.command_age);
     row.energy_J = devices::energy_left(hand);
     row.reasons = devices::to_bits(hand.reasons);
     row.glove_reasons = devices::to_bits(hand.glove_reasons);
@@ -157,7 +157,7 @@ void Rows::add(const devices::HapticState& state) {
   }
   for (std::int32_t c = 0; c < state.contact_count; ++c) {
     const devices::HapticContact& contact = state.contacts[static_cast<std::size_t>(c)];
-    ContactRow& row = contacts.emplace_back(ContactRow{.t_s = seconds(state.time), .tick = state.sequence});
+    ContactRow& row = contacts.emplace_back(ContactRow{.t_s = seconds_of(state.time), .tick = state.sequence});
     row.part = contact.part;
     copy(state.parts[static_cast<std::size_t>(contact.part)].X_WV * contact.p_V.cast<double>(), row.p_W_m);
     copy(contact.n_W.cast<double>(), row.n_W);
@@ -167,13 +167,13 @@ void Rows::add(const devices::HapticState& state) {
 void Rows::add(const devices::LoggedState& logged, std::chrono::nanoseconds time) {
   const devices::GloveState& state = logged.state;
   GloveRow& row = gloves.emplace_back(
-      GloveRow{.t_s = seconds(time), .device = logged.device, .sequence = state.sequence, .grip = state.grip});
+      GloveRow{.t_s = seconds_of(time), .device = logged.device, .sequence = state.sequence, .grip = state.grip});
   copy(state.X_WH, row.X_WH);
   copy(state.v_WH, row.v_WH_m_per_s);
   copy(state.w_WH, row.w_WH_rad_per_s);
   copy(state.joint_angles, row.angles_rad);
   row.is_enabled = state.is_enabled;
-  row.command_age_s = seconds(state.command_age);
+  row.command_age_s = seconds_of(state.command_age);
 }
 
 /// A field of a row: its name, its type as NumPy writes it, and its place.

@@ -156,7 +156,7 @@ void Server::show_end() {
 
 namespace {
 
-std::shared_ptr<Server> make(const simulation::Scene& scene, const py::args& gloves, const py::object& record) {
+std::shared_ptr<Server> make_server(const simulation::Scene& scene, const py::args& gloves, const py::object& record) {
   std::vector<std::shared_ptr<Glove>> taken;
   for (const py::handle glove : gloves) {
     if (!py::isinstance<Glove>(glove))
@@ -252,10 +252,10 @@ void release(Server& server, std::size_t hand) {
   if (!server.loop().release(hand)) throw std::invalid_argument("there is no hand " + std::to_string(hand));
 }
 
-using Type = py::class_<Server, std::shared_ptr<Server>>;
+using ServerType = py::class_<Server, std::shared_ptr<Server>>;
 
-void add_life(Type& type) {
-  type.def(py::init(&make), py::arg("scene"), py::arg("record") = py::none(),
+void add_life(ServerType& type) {
+  type.def(py::init(&make_server), py::arg("scene"), py::arg("record") = py::none(),
            R"(Builds the trees of the scene, which takes most of the time.
 
 gloves: first those of the scene's hands. A hand without fingers takes the first part if its glove is closed at the start;
@@ -286,7 +286,7 @@ could not be written.)");
       "All forces fade to zero and stay there; the loop goes on.");
 }
 
-void add_reading(Type& type) {
+void add_reading(ServerType& type) {
   type.def("frame", &frame, R"(The newest Frame, for a reader at its own rate. Never waits for the loop.
 
 Before the start, it shows the scene as it begins; after the end, the last tick without force. Raises RuntimeError, with
@@ -306,7 +306,8 @@ lateness, of the duration of a tick and of the age of the contacts, unsolved_tic
 void add_server(py::module_& module) {
   module.def("lock_memory", &realtime::lock_memory,
              "Locks the memory of this process, so that no thread waits for a page; True if the system grants it.");
-  Type type(module, "HapticServer", R"(The haptic loop: the forces at 1000 Hz in one thread, the simulation in another.
+  ServerType type(module, "HapticServer",
+                  R"(The haptic loop: the forces at 1000 Hz in one thread, the simulation in another.
 
 Both threads are in C++ and run no Python, so neither the interpreter lock nor a halt of the program delays a force.)");
   add_life(type);

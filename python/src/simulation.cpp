@@ -129,9 +129,9 @@ void add_contact(py::module_& module) {
       });
 }
 
-using Type = py::class_<GuardedSimulation>;
+using SimulationType = py::class_<GuardedSimulation>;
 
-void add_motion(Type& type) {
+void add_motion(SimulationType& type) {
   const auto milliseconds = py::arg("milliseconds") = 1.0;
   type.def(
       py::init(&make), py::arg("scene"),
@@ -158,7 +158,7 @@ force. Other Python threads run meanwhile. Ctrl-C ends the path early; the simul
 X_WR: poses of the wrists, (n, 7) or (n, 4, 4) for one hand, else (n, hands, …). angles: (n, 22) or (n, hands, 22) rad.)");
 }
 
-void add_parts(Type& type) {
+void add_parts(SimulationType& type) {
   const auto part = py::arg("part") = 0;
   const auto pose = [](GuardedSimulation& of, std::size_t p, Eigen::Isometry3d contact::SlidingResult::*member) {
     return to_array(
@@ -189,7 +189,7 @@ void add_parts(Type& type) {
            "Metres from the part to the nearest other body; `farthest` if none is nearer.");
 }
 
-void add_hands_of_simulation(Type& type) {
+void add_hands_of_simulation(SimulationType& type) {
   const auto hand = py::arg("hand") = 0;
   const auto grasp = [](GuardedSimulation& of, std::size_t h) {
     return of_hand(
@@ -211,7 +211,7 @@ void add_hands_of_simulation(Type& type) {
 void add_simulation(py::module_& module) {
   add_contact(module);
   add_track(module);
-  Type type(module, "Simulation", R"(A scene in motion. Deterministic.
+  SimulationType type(module, "Simulation", R"(A scene in motion. Deterministic.
 
 Without hands, the caller leads the parts: each follows its ghost, the pose it would have if nothing were in the way, and
 never enters another body. Hands with fingers grasp parts by touch. Several Python threads may use a simulation: each call
