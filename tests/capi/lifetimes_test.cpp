@@ -54,8 +54,9 @@ TEST_F(BoxOnPlate, ASimulatedGloveHasNoDriver) {
   const GlissadePose hand = at_height(0.1);
   GlissadeGlove glove{};
   ASSERT_C(glissade_glove_new_simulated(&time_s, &hand, 1, &glove));
-  GlissadeGloveCommand command;
-  EXPECT_EQ(glissade_glove_command(glove, &command), GLISSADE_INVALID);
+  GlissadeGloveState state;
+  ASSERT_C(glissade_glove_state_default(&state));
+  EXPECT_EQ(glissade_glove_put(glove, &state), GLISSADE_INVALID);
   EXPECT_THAT(glissade_last_error(), testing::HasSubstr("drives itself"));
   GlissadeServer server{};
   ASSERT_C(glissade_server_start(simulation, &glove, 1, &server));
