@@ -115,19 +115,24 @@ void Holds::weigh(Hand& hand, const HandPose& pose, double dt) noexcept {
 void Holds::combine(std::size_t number) noexcept {
   const Eigen::Vector3d& p_Vref = parts_[number].p_Vref;
   LedPart& led = led_[number];
-  const Hand* first = nullptr;
+  // Rotations differ from those of the hand with the greatest weight: a lost hand may be half a turn away from the
+  // others.
+  const Hand* base = nullptr;
   contact::CouplingStiffness sum{0.0, 0.0};
-  geometry::Displacement mean{};  // from the first hand's ghost
+  geometry::Displacement mean{};  // from the ghost of `base`
+  for (std::size_t h = 0; h < hands_.size(); ++h) {
+    const Hand& hand = hands_[h];
+    if (hand.part != number || (base != nullptr && hand.weight <= base->weight)) continue;
+    base = &hand;
+    led.X_WG = hand.X_WG;
+    led.stiffness = stiffness_[h][number];
+  }
   for (std::size_t h = 0; h < hands_.size(); ++h) {
     const Hand& hand = hands_[h];
     if (hand.part != number) continue;
     const contact::CouplingStiffness& k = stiffness_[h][number];
-    if (first == nullptr) {
-      first = &hand;
-      led.X_WG = hand.X_WG;
-      led.stiffness = k;
-    } else {
-      const geometry::Displacement d = geometry::displacement_between(first->X_WG, hand.X_WG, p_Vref);
+    if (&hand != base) {
+      const geometry::Displacement d = geometry::displacement_between(base->X_WG, hand.X_WG, p_Vref);
       mean.v += hand.weight * k.translational * d.v;
       mean.w += hand.weight * k.rotational * d.w;
     }
@@ -139,7 +144,7 @@ void Holds::combine(std::size_t number) noexcept {
   if (is_shared) {
     mean.v /= sum.translational;
     mean.w /= sum.rotational;
-    led.X_WG = geometry::displaced(first->X_WG, p_Vref, mean);
+    led.X_WG = geometry::displaced(base->X_WG, p_Vref, mean);
     led.stiffness = sum;
   }
   parts_[number].ghost.X_WG = led.X_WG;

@@ -72,6 +72,7 @@ TEST_F(Relay, StatesReachTheLoopNumbered) {
   EXPECT_EQ(seen.v_WH, state.v_WH);
   EXPECT_EQ(seen.joint_angles, state.joint_angles);
   EXPECT_EQ(seen.grip, 2);
+  EXPECT_GT(seen.link_delay, nanoseconds(0)) << "so only the envelope at the glove limits the energy";
   EXPECT_TRUE(glove.read(seen)) << "the newest state can be read again";
 }
 
