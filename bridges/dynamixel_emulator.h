@@ -37,7 +37,7 @@ class DynamixelEmulator {
 
   /// The port for `SerialStream`, or the link if there is one. Any thread may call this and the following functions.
   std::string port() const;
-  /// The same for the measuring board; empty without measured joints.
+  /// The port of the measuring board; empty without measured joints.
   std::string board_port() const;
   /// In the order of the hand's servos.
   std::vector<EmulatedServoState> servos() const;

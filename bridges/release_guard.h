@@ -16,7 +16,7 @@ namespace glissade::bridges {
 /// - at once when the first process ends, even by SIGKILL, without a call of `disarm`;
 /// - when nobody calls `renew` for 0.1 s.
 /// Signals of a terminal do not reach the second process. It ends with the first process. A second process that has
-/// ended, or does not respond, is replaced by another one. One thread calls all functions.
+/// ended, or does not listen, is replaced by another one. One thread calls all functions.
 class ReleaseGuard {
  public:
   /// Starts the second process. Throws WireError if the system refuses one.

@@ -120,7 +120,7 @@ GLISSADE_API GlissadeStatus glissade_scene_add_hand(GlissadeScene scene, int is_
                                                     double breadth_m);
 /** Coulomb friction of all contacts: coefficients at rest, and while sliding (at most `at_rest`). 0 and 0: off. */
 GLISSADE_API GlissadeStatus glissade_scene_set_friction(GlissadeScene scene, double at_rest, double sliding);
-/** Stiffness of the spring between ghost and part. Default: 1000 N/m. A device may render less. */
+/** Stiffness of the spring between ghost and part. Default: 1000 N/m. A device that can only render less gets less. */
 GLISSADE_API GlissadeStatus glissade_scene_set_stiffness(GlissadeScene scene, double stiffness_N_per_m);
 /** Limits steps and work of each call, and uses a search thread: for scenes that a server runs. Keeps friction. */
 GLISSADE_API GlissadeStatus glissade_scene_use_real_time_rules(GlissadeScene scene);

@@ -13,8 +13,8 @@
 /// - The distance is negative or not a number.
 /// - The pose is not finite.
 /// - The matrix R of the pose is a reflection.
-/// - The absolute values of the entries of RᵀR − 1 add up to 1e-3 or more. With a smaller sum, queries are slower, but
-///   exact.
+/// - The absolute values of the entries of RᵀR − 1 add up to 1e-3 or more. A smaller sum that is not 0 makes queries
+///   slower, but not less exact.
 
 #include <cstdint>
 #include <limits>

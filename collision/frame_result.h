@@ -70,7 +70,7 @@ struct FrameReport {
   std::int64_t neighbors = 0;  ///< pairs of neighbors, including pairs at rest
   /// In: objects that were added, moved or removed since the last frame. Out: objects that were added or moved.
   StageReport queue;
-  /// In: objects that were added or moved. Out: enabled pairs of neighbors, one of which is such an object.
+  /// In: objects that were added or moved. Out: enabled pairs of neighbors with at least one of these objects.
   StageReport neighbor_finding;
   /// In: pairs whose objects may have approached by more than the gap found in an earlier frame. Out: pairs for which
   /// no separating plane was found. Pairs that met in the last frame count as Out without a test.

@@ -63,8 +63,8 @@ struct Contact {
   /// the final width of a bisection. With the paper's method, contacts stop the part at half the final width.
   double margin = 0.0;
   /// The contact is valid until the part has moved by this distance (metres) across n_W. After a longer motion, the
-  /// contact point may have left one of the two features. `range` is infinite if no edge or corner of a face is near.
-  /// An edge between coplanar triangles does not count.
+  /// contact point may have left one of the two features. `range` is infinite if no rim of the two features is near.
+  /// An edge between coplanar triangles is not a rim.
   double range = std::numeric_limits<double>::infinity();
   /// Speed (m/s) of the other body's contact point along n_W in the last call; 0 for fixed obstacles.
   double approach = 0.0;

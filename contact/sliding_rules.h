@@ -108,7 +108,7 @@ enum class OverlapRule : std::uint8_t {
   /// obstacle are apart, they are an ordinary pair. The constructor still throws for:
   /// - a scripted part (see `HeldPart::script`)
   /// - a closed part that no inset (see `inset_mesh`) frees
-  /// - an open part that no translation by up to two margins frees
+  /// - an open part that is free on no side within two margins
   kDepenetrate,
 };
 

@@ -193,8 +193,9 @@ struct GloveState {
   /// same process, `limits` is empty and `command_age` is 0.
   LimitReasons limits;
   std::chrono::nanoseconds command_age{0};
-  std::chrono::nanoseconds link_delay{0};  ///< `SafetyEnvelope::link_delay` at the glove
-  double energy = 0.0;                     ///< `SafeCommand::energy` of the last command, J
+  /// `SafetyEnvelope::link_delay` at the glove. 0: no envelope at the glove limits the energy, so the server's does.
+  std::chrono::nanoseconds link_delay{0};
+  double energy = 0.0;  ///< `SafeCommand::energy` of the last command, J
   /// `SafeCommand::taken` of the last command, J; no value for a glove in the same process.
   std::optional<double> taken{};
 };

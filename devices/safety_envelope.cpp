@@ -106,7 +106,6 @@ const DeviceDescriptor& SafetyEnvelope::descriptor() const noexcept {
 }
 
 nanoseconds SafetyEnvelope::link_delay() const noexcept {
-  // In a state, 0 says that no envelope at the glove limits the energy, so the server's would.
   return std::max(stages_->link_delay.upper_quartile(), nanoseconds(1));
 }
 

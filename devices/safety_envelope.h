@@ -67,17 +67,17 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 /// ms, two periods). The available energy is 0.1 J at the start (for sampling errors), plus what the hand has put in,
 /// minus what it has got back. Its maximum is about 0.25 m times the largest force. Joint torques do not count. The
 /// wrench is a continuous function of energy and velocity. The remaining energy must suffice for the wrench to fall to
-/// zero like that of a passive spring (derivation: docs/safety.md). At the end of a contact, the energy falls to at
-/// most 0.1 J. If the energy is below 0.1 J, or below what the wanted wrench needs, it recovers: at 0.3 W without a
-/// contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All recovery draws on a
-/// budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the envelope at the
-/// glove's end limits the energy. With these rules, no delay and no error of the simulation can sustain a fast
-/// oscillation that pushes both ways and gives more than 60 mW. A hand at rest feels no jump. Source of the observer:
-/// Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that shrink with the
-/// energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with time delays: a
-/// two-layer approach combining passivity and transparency, 2011.
+/// zero like that of a spring that the device renders passively (derivation: docs/safety.md). At the end of a contact,
+/// the energy falls to at most 0.1 J. If the energy is below 0.1 J, or below what the wanted wrench needs, it recovers:
+/// at 0.3 W without a contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All
+/// recovery draws on a budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the
+/// envelope at the glove's end limits the energy. With these rules, no delay and no error of the simulation can sustain
+/// a fast oscillation that pushes both ways and gives more than 60 mW. A hand at rest feels no jump. Source of the
+/// observer: Hannaford and Ryu, Time-domain passivity control of haptic interfaces, 2002. Source of wrenches that
+/// shrink with the energy in a tank, and of tanks that exchange energy: Franken et al., Bilateral telemanipulation with
+/// time delays: a two-layer approach combining passivity and transparency, 2011.
 ///
-/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the energy that they give. A rise of
+/// Bodies that move on their own may push the hand. `GloveCommand::supply` is the account of this energy. A rise of
 /// `supply`, times the exerted share of the wanted wrench, counts as energy that the hand has put in, at a rate of at
 /// most the device's largest power. A fall of `supply` is a request for energy. The hand gives up only energy above 0.1
 /// J, and only the part that the wanted wrench does not need. So the force does not shrink. The rest of the request
@@ -128,7 +128,8 @@ class GLISSADE_EXPORT SafetyEnvelope {
   const DeviceDescriptor& descriptor() const noexcept;
 
   /// An estimate of the upper quartile of the ages of new commands, which changes at a bounded rate. At the glove's
-  /// end, it is the delay of the whole round trip. Ages above 150 ms count as silence.
+  /// end, it is the delay of the whole round trip. Ages above 150 ms count as silence. At least 1 ns, because 0 in a
+  /// state has another meaning.
   std::chrono::nanoseconds link_delay() const noexcept;
 
  private:

@@ -16,7 +16,8 @@ namespace glissade::apps {
 namespace {
 
 constexpr const char* kEmulateFooter =
-    "An emulator is a program that speaks the protocol of a device, so you can try a bridge without hardware. The\n"
+    "An emulator is a program that speaks the protocol of a device, so you can try a bridge without hardware. A\n"
+    "bridge cannot tell it from the device. The\n"
     "fingers, motors and strings of the gloves 'dynamixel' and 'opengloves' have the dynamics of the presets of the\n"
     "same names, see 'glissade glove --presets'. The hand of 'haply', and the fingers and palm of a glove, can follow\n"
     "a script.\n"

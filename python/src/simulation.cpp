@@ -149,8 +149,8 @@ time since the call before. A caller that is late passes all of it, so that the 
 
 X_WG: (n, 7) or (n, 4, 4) for a scene with one part, else (n, parts, 7) or (n, parts, 4, 4). milliseconds: the time from one
 pose to the next. clearance: also the distance from the first part to the nearest other body, which costs several queries a
-pose; never 0, because a part keeps its margin. A part begins at the pose of its object, X_WB. For one pose, it moves by
-up to 30 mm. What a jump of the path leaves, it closes by 0.2 mm in a millisecond (metaphor 'force-feedback'), without a
+pose; 0 only where it touches or overlaps a body from the start. A part begins at the pose of its object, X_WB. For one pose, it moves by
+up to 3 mm in each of max_cycles cycles. What a jump of the path leaves, it closes by 0.2 mm in a millisecond (metaphor 'force-feedback'), without a
 force. Other Python threads run meanwhile. Ctrl-C ends the path early; the simulation stays where it is.)");
   type.def("follow_hands", &follow_hands, py::arg("X_WR"), py::arg("angles"), milliseconds,
            R"(Like `follow`, for a scene with hands.

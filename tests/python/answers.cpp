@@ -3,10 +3,8 @@
 //                                       intersect, their distance, and the triangles of the closest points
 //   python_answers slide GHOSTS OUT     a box on a plate follows each pose: X_WV, row by row, and the force on the hand
 // POSES and GHOSTS are matrices of 16 doubles, row by row.
-#include <algorithm>
 #include <cstddef>
 #include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -15,22 +13,11 @@
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/simulation/simulation.h>
 
+#include "pose_matrices.h"
+
 namespace {
 
 using namespace glissade;
-using Matrix = Eigen::Matrix<double, 4, 4, Eigen::RowMajor>;
-
-std::vector<Eigen::Isometry3d> read_poses(const char* path) {
-  std::ifstream file(path, std::ios::binary);
-  const std::vector<char> bytes{std::istreambuf_iterator<char>(file), {}};
-  std::vector<Eigen::Isometry3d> poses(bytes.size() / sizeof(Matrix));
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    Matrix matrix;
-    std::copy_n(bytes.data() + i * sizeof(Matrix), sizeof(Matrix), reinterpret_cast<char*>(matrix.data()));
-    poses[i].matrix() = matrix;
-  }
-  return poses;
-}
 
 class Output {
  public:
@@ -60,7 +47,7 @@ void answer_slide(const std::vector<Eigen::Isometry3d>& X_WG, Output& out) {
                                                   Eigen::Isometry3d(Eigen::Translation3d(0.0, 0.0, 0.030)), true}}});
   for (const Eigen::Isometry3d& ghost : X_WG) {
     simulation.advance(ghost);
-    const Matrix X_WV = simulation.X_WV(0).matrix();
+    const test_support::PoseMatrix X_WV = simulation.X_WV(0).matrix();
     for (const double value : X_WV.reshaped<Eigen::RowMajor>())
       out.put(value);
     for (const double value : simulation.wrench(0).f)
@@ -73,5 +60,5 @@ void answer_slide(const std::vector<Eigen::Isometry3d>& X_WG, Output& out) {
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
   Output out(argv[3]);
-  (argv[1] == std::string("slide") ? answer_slide : answer_queries)(read_poses(argv[2]), out);
+  (argv[1] == std::string("slide") ? answer_slide : answer_queries)(test_support::read_poses(argv[2]), out);
 }

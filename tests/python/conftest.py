@@ -15,14 +15,22 @@ def cube():
     return glissade.Tree(glissade.Mesh.shape("box", size_x_m=0.1, size_y_m=0.1, size_z_m=0.1))
 
 
+def torus_of(triangles):
+    return glissade.Tree(glissade.Mesh.shape("torus", major_radius_m=0.08, minor_radius_m=0.03, triangles=triangles))
+
+
+def ball_of(triangles):
+    return glissade.Tree(glissade.Mesh.shape("sphere", radius_m=0.04, triangles=triangles))
+
+
 @pytest.fixture(scope="session")
 def torus():
-    return glissade.Tree(glissade.Mesh.shape("torus", major_radius_m=0.08, minor_radius_m=0.03, triangles=50000))
+    return torus_of(50000)
 
 
 @pytest.fixture(scope="session")
 def ball():
-    return glissade.Tree(glissade.Mesh.shape("sphere", radius_m=0.04, triangles=50000))
+    return ball_of(50000)
 
 
 def box_on_plate(**options):

@@ -10,19 +10,19 @@ from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
-from conftest import arm, at, box_on_plate, pressing_glove, random_poses, real_time_scene
+from conftest import arm, at, ball_of, box_on_plate, pressing_glove, random_poses, real_time_scene, torus_of
 
 import glissade
 
 
 @pytest.fixture(scope="module")
 def torus():
-    return glissade.Tree(glissade.Mesh.shape("torus", major_radius_m=0.08, minor_radius_m=0.03, triangles=5000))
+    return torus_of(5000)
 
 
 @pytest.fixture(scope="module")
 def ball():
-    return glissade.Tree(glissade.Mesh.shape("sphere", radius_m=0.04, triangles=5000))
+    return ball_of(5000)
 
 
 def test_eight_threads_share_trees_a_simulation_and_a_pipeline(torus, ball, cube):
