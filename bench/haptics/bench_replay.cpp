@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include <glissade/apps/files/hand_script.h>
 #include <glissade/apps/record/offline_replay.h>
 #include <glissade/apps/scene/embedded_scene.h>
 #include <glissade/apps/session/haptic_session.h>

@@ -14,6 +14,9 @@ namespace glissade::python {
 
 namespace {
 
+/// Numbers of a pose.
+constexpr py::ssize_t kRow = 7, kMatrix = 16;
+
 /// The defect from which on queries refuse a pose.
 constexpr double kLargestDefect = 1e-3;
 
@@ -57,16 +60,26 @@ Eigen::Isometry3d pose_from_row(const double* row, const NameOfPose& name) {
   }
 }
 
-Eigen::Isometry3d pose_from_matrix(const double* values, const NameOfPose& name) {
-  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values);
-  if (!matrix.allFinite()) throw std::invalid_argument(name() + " has a number that is not finite");
-  if (matrix.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
+/// Throws for a matrix that is no pose.
+void check_pose(const Eigen::Isometry3d& X, const Eigen::RowVector4d& last_row, const NameOfPose& name) {
+  if (!X.affine().allFinite() || !last_row.allFinite())
+    throw std::invalid_argument(name() + " has a number that is not finite");
+  if (last_row != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0))
     throw std::invalid_argument(name() + ": the last row of a pose is 0, 0, 0, 1");
-  Eigen::Isometry3d X = Eigen::Isometry3d::Identity();
-  X.matrix().topRows<3>() = matrix.topRows<3>();
   if (geometry::rotation_defect(X.linear()) >= kLargestDefect)
     throw std::invalid_argument(name() + " has no rotation; its columns must be of length 1, at right angles");
   if (!geometry::is_right_handed(X.linear())) throw std::invalid_argument(name() + " is a reflection");
+}
+
+Eigen::Isometry3d pose_from_matrix(const double* values, const NameOfPose& name) {
+  const Eigen::Map<const Eigen::Matrix<double, 4, 4, Eigen::RowMajor>> matrix(values);
+  Eigen::Isometry3d X;
+  X.matrix().topRows<3>() = matrix.topRows<3>();
+  X.makeAffine();
+  // A short query takes about twenty times as long as this test, so most poses get no more than it.
+  const bool is_pose = geometry::rotation_defect_bound(X.linear()) < kLargestDefect && X.translation().allFinite() &&
+                       values[12] == 0.0 && values[13] == 0.0 && values[14] == 0.0 && values[15] == 1.0;
+  if (!is_pose) check_pose(X, matrix.row(3), name);
   return X;
 }
 
@@ -92,32 +105,37 @@ void check_finite(const Numbers& numbers, const std::string& name) {
     throw std::invalid_argument(name + " has a number that is not finite");
 }
 
-Poses poses_from(const py::object& argument, const std::string& name) {
-  const Numbers array = numbers_from(argument, name);
-  const py::ssize_t axes = array.ndim();
-  const bool are_rows = axes >= 1 && array.shape(axes - 1) == 7;
-  const bool are_matrices = axes >= 2 && array.shape(axes - 1) == 4 && array.shape(axes - 2) == 4;
+Poses::Poses(const py::object& argument, std::string name)
+    : numbers_(numbers_from(argument, name)), name_(std::move(name)) {
+  const py::ssize_t axes = numbers_.ndim();
+  const bool are_rows = axes >= 1 && numbers_.shape(axes - 1) == kRow;
+  const bool are_matrices = axes >= 2 && numbers_.shape(axes - 1) == 4 && numbers_.shape(axes - 2) == 4;
   if (!are_rows && !are_matrices) {
-    throw std::invalid_argument(name + " has the shape " + shape_of(array) +
+    throw std::invalid_argument(name_ + " has the shape " + shape_of(numbers_) +
                                 ", but poses have the shape (7,), (n, 7), (4, 4) or (n, 4, 4)");
   }
-  Poses poses;
-  poses.shape.assign(array.shape(), array.shape() + axes - (are_rows ? 1 : 2));
-  const py::ssize_t values_each = are_rows ? 7 : 16;
-  const auto count = static_cast<std::size_t>(array.size() / values_each);
-  poses.X.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    const double* const values = array.data() + static_cast<py::ssize_t>(i) * values_each;
-    const NameOfPose own_name{name, poses.shape, i};
-    poses.X.push_back(are_rows ? pose_from_row(values, own_name) : pose_from_matrix(values, own_name));
-  }
+  shape_.assign(numbers_.shape(), numbers_.shape() + axes - (are_rows ? 1 : 2));
+  values_each_ = are_rows ? kRow : kMatrix;
+}
+
+Eigen::Isometry3d Poses::operator[](std::size_t i) const {
+  const double* const values = numbers_.data() + static_cast<py::ssize_t>(i) * values_each_;
+  const NameOfPose own_name{name_, shape_, i};
+  return values_each_ == kRow ? pose_from_row(values, own_name) : pose_from_matrix(values, own_name);
+}
+
+std::vector<Eigen::Isometry3d> Poses::all() const {
+  std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(size());
+  for (std::size_t i = 0; i < size(); ++i)
+    poses.push_back((*this)[i]);
   return poses;
 }
 
 Eigen::Isometry3d pose_from(const py::object& argument, const std::string& name) {
-  const Poses poses = poses_from(argument, name);
+  const Poses poses(argument, name);
   if (!poses.is_single()) throw std::invalid_argument(name + " must be one pose, of the shape (7,) or (4, 4)");
-  return poses.X.front();
+  return poses[0];
 }
 
 py::array_t<double> to_array(std::span<const Eigen::Isometry3d> poses, std::vector<py::ssize_t> shape) {
@@ -154,13 +172,13 @@ std::chrono::nanoseconds nanoseconds_from(double time_s, const std::string& name
 geometry::PoseTrajectory trajectory_from(const py::object& times_s, const std::string& name_of_times,
                                          const py::object& poses, const std::string& name_of_poses) {
   const Numbers times = numbers_from(times_s, name_of_times);
-  const Poses X = poses_from(poses, name_of_poses);
-  if (times.ndim() != 1 || X.shape.size() != 1 || times.shape(0) != X.shape[0])
+  const Poses X(poses, name_of_poses);
+  if (times.ndim() != 1 || X.shape().size() != 1 || times.shape(0) != X.shape()[0])
     throw std::invalid_argument(name_of_times + " and " + name_of_poses + " must be n times (seconds) and n poses");
   std::vector<geometry::TimedPose> rows;
-  for (std::size_t i = 0; i < X.X.size(); ++i) {
+  for (std::size_t i = 0; i < X.size(); ++i) {
     const std::string name = name_of_times + "[" + std::to_string(i) + "]";
-    rows.push_back({nanoseconds_from(times.at(static_cast<py::ssize_t>(i)), name), X.X[i]});
+    rows.push_back({nanoseconds_from(times.at(static_cast<py::ssize_t>(i)), name), X[i]});
   }
   return geometry::PoseTrajectory(std::move(rows));
 }

@@ -30,17 +30,28 @@ Numbers numbers_from(const py::object& argument, const std::string& name);
 /// Throws std::invalid_argument for a number that is not finite.
 void check_finite(const Numbers& numbers, const std::string& name);
 
-/// One pose, or several in an array.
-struct Poses {
-  std::vector<Eigen::Isometry3d> X;
-  std::vector<py::ssize_t> shape;  ///< of the array without the axes of a pose; empty for one pose
+/// One pose, or several in an array: rows (…, 7) of x, y, z (metres) and the quaternion qw, qx, qy, qz, or matrices
+/// (…, 4, 4). A quaternion may be up to 1e-3 longer or shorter than 1. A matrix keeps its bits. A pose is converted and
+/// checked where it is used, so that a query of many short ones does not read them twice.
+class Poses {
+ public:
+  Poses(const py::object& argument, std::string name);
 
-  bool is_single() const { return shape.empty(); }
+  std::size_t size() const { return static_cast<std::size_t>(numbers_.size() / values_each_); }
+  /// Of the array without the axes of a pose; empty for one pose.
+  const std::vector<py::ssize_t>& shape() const { return shape_; }
+  bool is_single() const { return shape_.empty(); }
+
+  /// Pose i in the order of the rows. Needs no interpreter lock. Throws std::invalid_argument, naming the pose.
+  Eigen::Isometry3d operator[](std::size_t i) const;
+  std::vector<Eigen::Isometry3d> all() const;
+
+ private:
+  Numbers numbers_;
+  std::string name_;
+  std::vector<py::ssize_t> shape_;
+  py::ssize_t values_each_ = 0;
 };
-
-/// Poses as rows (…, 7) of x, y, z (metres) and the quaternion qw, qx, qy, qz, or as matrices (…, 4, 4). A quaternion
-/// may be up to 1e-3 longer or shorter than 1. A matrix keeps its bits.
-Poses poses_from(const py::object& argument, const std::string& name);
 
 /// Exactly one pose.
 Eigen::Isometry3d pose_from(const py::object& argument, const std::string& name);

@@ -70,11 +70,11 @@ std::uint64_t add(Pipeline& pipeline, const py::object& of, const py::object& X_
 }
 
 void move(Pipeline& pipeline, const std::vector<std::uint64_t>& ids, const py::object& X_WO) {
-  const Poses poses = poses_from(X_WO, "X_WO");
-  if (poses.X.size() != ids.size())
-    throw std::invalid_argument(std::to_string(poses.X.size()) + " poses for " + std::to_string(ids.size()) +
-                                " objects");
-  pipeline.with([&](Objects& objects) { objects.move(ids, poses.X); });
+  const Poses poses(X_WO, "X_WO");
+  if (poses.size() != ids.size())
+    throw std::invalid_argument(std::to_string(poses.size()) + " poses for " + std::to_string(ids.size()) + " objects");
+  const std::vector<Eigen::Isometry3d> X = poses.all();  // before anything moves
+  pipeline.with([&](Objects& objects) { objects.move(ids, X); });
 }
 
 py::array_t<std::uint64_t> step(Pipeline& pipeline, double distance) {

@@ -36,7 +36,7 @@ struct Trees {
 /// Calls query(workspace, i) for each pose, with a workspace for each thread.
 template <typename Workspace, typename Query>
 void for_each_pose(const Poses& X_AB, int threads, const Query& query) {
-  for_each(static_cast<std::int64_t>(X_AB.X.size()), threads, [&] {
+  for_each(static_cast<std::int64_t>(X_AB.size()), threads, [&] {
     return [&query, workspace = std::make_shared<Workspace>()](std::int64_t i) {
       query(*workspace, static_cast<std::size_t>(i));
     };
@@ -56,11 +56,11 @@ void for_each_pose(const Poses& X_AB, bool is_coherent, int threads, const Query
 py::object intersects(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double tolerance,
                       bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
-  const Poses X_AB = poses_from(poses, "X_AB");
-  py::array_t<bool> answers = new_array<bool>(X_AB.shape);
+  const Poses X_AB(poses, "X_AB");
+  py::array_t<bool> answers = new_array<bool>(X_AB.shape());
   bool* const answer = answers.mutable_data();
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    answer[i] = collision::intersects(*trees.A, *trees.B, X_AB.X[i], workspace, tolerance);
+    answer[i] = collision::intersects(*trees.A, *trees.B, X_AB[i], workspace, tolerance);
   });
   if (X_AB.is_single()) return py::bool_(*answer);
   return answers;
@@ -88,17 +88,17 @@ py::object one_or_list(const Poses& X_AB, const std::vector<Answer>& answers, co
 }
 
 void check_is_list(const Poses& X_AB) {
-  if (X_AB.shape.size() > 1) throw std::invalid_argument("X_AB must be one pose or a list of poses");
+  if (X_AB.shape().size() > 1) throw std::invalid_argument("X_AB must be one pose or a list of poses");
 }
 
 py::object pairs(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double tolerance,
                  bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
-  const Poses X_AB = poses_from(poses, "X_AB");
+  const Poses X_AB(poses, "X_AB");
   check_is_list(X_AB);
-  std::vector<std::vector<TrianglePair>> answers(X_AB.X.size());
+  std::vector<std::vector<TrianglePair>> answers(X_AB.size());
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    collision::intersecting_pairs(*trees.A, *trees.B, X_AB.X[i], workspace, answers[i], tolerance);
+    collision::intersecting_pairs(*trees.A, *trees.B, X_AB[i], workspace, answers[i], tolerance);
   });
   return one_or_list(X_AB, answers, array_of);
 }
@@ -154,11 +154,11 @@ py::object points_of(const std::vector<ClosePair>& pairs) {
 py::object pairs_within(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double distance,
                         bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
-  const Poses X_AB = poses_from(poses, "X_AB");
+  const Poses X_AB(poses, "X_AB");
   check_is_list(X_AB);
-  std::vector<std::vector<ClosePair>> answers(X_AB.X.size());
+  std::vector<std::vector<ClosePair>> answers(X_AB.size());
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    collision::pairs_within(*trees.A, *trees.B, X_AB.X[i], distance, workspace, answers[i]);
+    collision::pairs_within(*trees.A, *trees.B, X_AB[i], distance, workspace, answers[i]);
   });
   return one_or_list(X_AB, answers, points_of);
 }
@@ -166,11 +166,11 @@ py::object pairs_within(const py::object& tree_A, const py::object& tree_B, cons
 ClosestPoints distance(const py::object& tree_A, const py::object& tree_B, const py::object& poses, double limit,
                        bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
-  const Poses X_AB = poses_from(poses, "X_AB");
-  ClosestPoints points(X_AB.shape);
+  const Poses X_AB(poses, "X_AB");
+  ClosestPoints points(X_AB.shape());
   const Row row(points);
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
-    const collision::MeshDistance answer = collision::distance(*trees.A, *trees.B, X_AB.X[i], workspace, limit);
+    const collision::MeshDistance answer = collision::distance(*trees.A, *trees.B, X_AB[i], workspace, limit);
     row.set(i, answer.distance, answer.nearest);
   });
   return points;
@@ -179,12 +179,12 @@ ClosestPoints distance(const py::object& tree_A, const py::object& tree_B, const
 py::array_t<double> way_out(const py::object& tree_A, const py::object& tree_B, const py::object& poses,
                             double clearance, int threads) {
   const Trees trees(tree_A, tree_B);
-  const Poses X_AB = poses_from(poses, "X_AB");
-  py::array_t<double> ways = new_array<double>(X_AB.shape, {3});
+  const Poses X_AB(poses, "X_AB");
+  py::array_t<double> ways = new_array<double>(X_AB.shape(), {3});
   double* const way = ways.mutable_data();
   for_each_pose<QueryWorkspace>(X_AB, threads, [&](QueryWorkspace& workspace, std::size_t i) {
     Eigen::Map<Eigen::Vector3d>(way + 3 * i) =
-        collision::find_way_out(*trees.A, *trees.B, X_AB.X[i], workspace, clearance).way_out_A;
+        collision::find_way_out(*trees.A, *trees.B, X_AB[i], workspace, clearance).way_out_A;
   });
   return ways;
 }

@@ -58,8 +58,8 @@ std::unique_ptr<GuardedSimulation> make(const Scene& scene) {
 }
 
 void advance(GuardedSimulation& guarded, const py::object& poses, double milliseconds) {
-  const Poses X_WG = poses_from(poses, "X_WG");
-  guarded.with([&](Simulation& simulation) { simulation.advance(X_WG.X, milliseconds); });
+  const std::vector<Eigen::Isometry3d> X_WG = Poses(poses, "X_WG").all();
+  guarded.with([&](Simulation& simulation) { simulation.advance(X_WG, milliseconds); });
 }
 
 void advance_hands(GuardedSimulation& guarded, const std::vector<std::optional<grasping::Posture>>& postures,

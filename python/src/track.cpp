@@ -80,38 +80,40 @@ Track table_of(const Rows& rows, py::ssize_t count, py::ssize_t parts, bool has_
 }  // namespace
 
 Track follow(GuardedSimulation& guarded, const py::object& poses, double milliseconds, bool with_clearance) {
-  const Poses X_WG = poses_from(poses, "X_WG");
-  if (X_WG.shape.size() != 1 && X_WG.shape.size() != 2)
+  const Poses X_WG(poses, "X_WG");
+  if (X_WG.shape().size() != 1 && X_WG.shape().size() != 2)
     throw std::invalid_argument("X_WG must have the shape (n, 7), (n, 4, 4), (n, parts, 7) or (n, parts, 4, 4)");
-  const py::ssize_t count = X_WG.shape[0];
-  const std::size_t each = X_WG.shape.size() == 2 ? static_cast<std::size_t>(X_WG.shape[1]) : 1;
+  const py::ssize_t count = X_WG.shape()[0];
+  const std::size_t each = X_WG.shape().size() == 2 ? static_cast<std::size_t>(X_WG.shape()[1]) : 1;
+  const std::vector<Eigen::Isometry3d> path = X_WG.all();  // before the part moves: a bad pose moves nothing
   Rows rows;
   guarded.with([&](Simulation& simulation) {
     SignalCheck check;
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
-      simulation.advance(std::span(X_WG.X).subspan(i * each, each), milliseconds);
+      simulation.advance(std::span(path).subspan(i * each, each), milliseconds);
       rows.note(simulation);
       if (with_clearance) rows.clearances.push_back(simulation.clearance(0));
       check();
     }
   });
-  return table_of(rows, count, static_cast<py::ssize_t>(each), X_WG.shape.size() == 2, with_clearance);
+  return table_of(rows, count, static_cast<py::ssize_t>(each), X_WG.shape().size() == 2, with_clearance);
 }
 
 Track follow_hands(GuardedSimulation& guarded, const py::object& poses, const py::object& joint_angles,
                    double milliseconds) {
-  const Poses X_WR = poses_from(poses, "X_WR");
+  const Poses X_WR(poses, "X_WR");
   const Numbers angles = numbers_from(joint_angles, "angles");
-  const bool has_axis_of_hands = X_WR.shape.size() == 2;
-  std::vector<py::ssize_t> wanted = X_WR.shape;
+  const bool has_axis_of_hands = X_WR.shape().size() == 2;
+  std::vector<py::ssize_t> wanted = X_WR.shape();
   wanted.push_back(hands::kJoints);
-  if (X_WR.is_single() || X_WR.shape.size() > 2 ||
+  if (X_WR.is_single() || X_WR.shape().size() > 2 ||
       !std::equal(wanted.begin(), wanted.end(), angles.shape(), angles.shape() + angles.ndim()))
     throw std::invalid_argument(
         "X_WR must have the shape (n, …) or (n, hands, …), and angles (n, 22) or (n, hands, 22)");
-  const py::ssize_t count = X_WR.shape[0];
-  const std::size_t each = has_axis_of_hands ? static_cast<std::size_t>(X_WR.shape[1]) : 1;
+  const py::ssize_t count = X_WR.shape()[0];
+  const std::size_t each = has_axis_of_hands ? static_cast<std::size_t>(X_WR.shape()[1]) : 1;
   check_finite(angles, "angles");
+  const std::vector<Eigen::Isometry3d> roots = X_WR.all();
   Rows rows;
   const std::vector<double> all_angles(angles.data(), angles.data() + angles.size());  // threads may change the array
   const std::size_t parts = guarded.with([&](Simulation& simulation) {
@@ -121,7 +123,7 @@ Track follow_hands(GuardedSimulation& guarded, const py::object& poses, const py
       for (std::size_t hand = 0; hand < each; ++hand) {
         const std::size_t row = i * each + hand;
         const double* const values = all_angles.data() + row * hands::kJoints;
-        postures[hand] = grasping::Posture{X_WR.X[row], std::vector<double>(values, values + hands::kJoints)};
+        postures[hand] = grasping::Posture{roots[row], std::vector<double>(values, values + hands::kJoints)};
       }
       simulation.advance(postures, milliseconds);
       rows.note(simulation);

@@ -16,7 +16,7 @@ NOT_POSES = [
     (np.zeros((3, 5)), ValueError, "X_AB has the shape (3, 5), but poses have the shape"),
     ([0, 0, np.nan, 1, 0, 0, 0], ValueError, "X_AB has a number that is not finite"),
     ([at(0, 0, 0), [0, 0, 0, 2, 0, 0, 0]], ValueError, "X_AB[1]: the quaternion (w x y z) 2 0 0 0 has length 2"),
-    ([[at(0, 0, 0)], [[0, 0, np.inf, 1, 0, 0, 0]]], ValueError, "X_AB[1, 0] has a number that is not finite"),
+    ([at(0, 0, 0), [0, 0, np.inf, 1, 0, 0, 0]], ValueError, "X_AB[1] has a number that is not finite"),
     (2 * np.eye(4), ValueError, "X_AB: the last row of a pose is 0, 0, 0, 1"),
     (np.diag([1, 1, -1, 1]), ValueError, "reflection"),
     (np.diag([2, 2, 2, 1]), ValueError, "rotation"),
@@ -29,6 +29,21 @@ def test_poses(cube, poses, error, sentence):
         with pytest.raises(error) as caught:
             query(cube, cube, poses)
         assert sentence in str(caught.value)
+
+
+def test_a_pose_of_an_array_with_two_axes_is_named(cube):
+    poses = [[at(0, 0, 0)], [[0, 0, np.inf, 1, 0, 0, 0]]]
+    with pytest.raises(ValueError, match=r"^X_AB\[1, 0\] has a number that is not finite"):
+        glissade.intersects(cube, cube, poses)
+
+
+@pytest.mark.parametrize("value", [np.nan, np.inf, -np.inf])
+def test_every_number_of_a_matrix_must_be_finite(cube, value):
+    for entry in np.ndindex(4, 4):
+        pose = np.eye(4)
+        pose[entry] = value
+        with pytest.raises(ValueError, match="^X_AB has a number that is not finite"):
+            glissade.intersects(cube, cube, pose)
 
 
 def test_a_pose_among_many_is_named(cube):
