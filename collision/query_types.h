@@ -19,7 +19,8 @@ class CoherentFront;
 class DopTree;
 struct QueryMemory;
 
-/// Triangle indices into the meshes of tree A and tree B.
+/// Triangle indices into the meshes of tree A and tree B. Import renumbers the triangles of a file: it splits polygons
+/// and drops degenerate triangles.
 struct TrianglePair {
   std::int32_t triangle_A;
   std::int32_t triangle_B;

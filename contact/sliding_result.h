@@ -47,7 +47,7 @@ struct Contact {
   Eigen::Vector3d n_W;  ///< unit normal, from the obstacle to the part
   Eigen::Vector3d p_W;  ///< contact point on the part (kOverlap: the part's reference point), metres
   double gap;           ///< metres; negative only for kOverlap
-  double force = 0.0;   ///< newtons along n_W; 0 if the contact does not push
+  double force = 0.0;   ///< newtons on the part, along n_W; 0 if the contact does not push
   /// Numbers of the two features. A face has the number of its triangle. An edge has its number in
   /// `geometry::MeshTopology`. A vertex has its number in the mesh. −1 means that the features are unknown. They are
   /// unknown for overlaps, for contacts of triangle pairs whose certificate failed, and for contacts that the paper's

@@ -1,6 +1,7 @@
 #pragma once
 
 /// A force-feedback glove in the haptic loop: its state, commands and limits, and the interface of a device driver.
+/// A driver implements `GloveDevice`, the last class of this file, and reads `SafeCommand` (safety_envelope.h).
 /// Frames: W world; H hand root, i.e. the frame whose pose the glove reports.
 
 #include <array>
@@ -267,7 +268,7 @@ struct DeviceDescriptor {
   double resolution = 0.0;          ///< step of the measured position, or standard deviation of its noise
   double joint_resolution = 0.0;    ///< step of the measured joint angles
   /// Time from measurement to force, in addition to the period and the link. If the device measures at its own times,
-  /// the wait of a measurement for the next tick is a part of this delay.
+  /// the delay includes the time from the measurement to the next tick.
   std::chrono::nanoseconds delay{0};
   /// Largest rates of change of the force (N/s), the torque and each joint torque (Nm/s). A rate of 0 stands for the
   /// default: from zero to the maximum in seven periods of the device, or in two periods for joint torques
@@ -320,8 +321,9 @@ GLISSADE_EXPORT double tool_lag(const DeviceDescriptor& descriptor, std::chrono:
                                 std::chrono::nanoseconds link_delay) noexcept;
 
 /// The largest stiffness that is passive with the reported damping `told` at this lag (seconds), i.e. damping divided
-/// by lag. If `told` is 0, assumes the damping that just makes the device's largest stiffness, `greatest`, passive at
-/// `own_lag`, the lag without a link. Source: Colgate and Schenkel, Passivity of a class of sampled-data systems, 1997.
+/// by lag. If `told` is 0, the damping is assumed to be just enough for the largest stiffness of the device,
+/// `greatest`, to be passive without a link, i.e. at the lag `own_lag`. Source: Colgate and Schenkel, Passivity of a
+/// class of sampled-data systems, 1997.
 GLISSADE_EXPORT double passive_limit(double told, double greatest, double own_lag, double lag) noexcept;
 
 /// The largest stiffness (Nm/rad) of limits that the device can hold in its own loop. With the device's joint damping

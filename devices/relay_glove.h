@@ -34,9 +34,10 @@ class GLISSADE_EXPORT RelayGlove final : public GloveDevice {
   void publish(const GloveState& measured) noexcept;
 
   /// Driver: the command for the device in this period. Call this function once a period, after `publish`. The force is
-  /// zero before the first state and before the first command. The force fades if the newest state is old, or if the
-  /// newest command answers a state that is older than six periods and the delay of the link, or older than 150 ms. A
-  /// period is that of the device, but at least 1 ms. Limits and half-spaces expire as in `JointLimits::expiry`.
+  /// zero before the first state and before the first command. The force fades if the newest state is old. The force
+  /// also fades if the newest command answers an old state: older than 150 ms, or than the sum of six periods and the
+  /// delay of the link. A period is that of the device, but at least 1 ms. Limits and half-spaces expire as in
+  /// `JointLimits::expiry`.
   SafeCommand newest_command() noexcept;
 
   /// Emergency stop: the force fades to zero and stays there. Any thread.

@@ -66,8 +66,8 @@ GLISSADE_EXPORT std::string to_text(const SafeCommand& command);
 /// after all limits. A command counts from the delay of the device on until the next command acts, for at most max(10
 /// ms, two periods). The available energy is 0.1 J at the start (for sampling errors), plus what the hand has put in,
 /// minus what it has got back. Its maximum is about 0.25 m times the largest force. Joint torques do not count. The
-/// wrench is a continuous function of energy and velocity. The remaining energy must suffice for the wrench to fall to
-/// zero like that of a spring that the device renders passively (derivation: docs/safety.md). At the end of a contact,
+/// wrench is a continuous function of energy and velocity. The wrench is never greater than the remaining energy
+/// allows (derivation: docs/safety.md). At the end of a contact,
 /// the energy falls to at most 0.1 J. If the energy is below 0.1 J, or below what the wanted wrench needs, it recovers:
 /// at 0.3 W without a contact, and faster in a calm contact or after an interruption (conditions: docs/safety.md). All
 /// recovery draws on a budget of 1 J, which refills at 0.25 W. For a glove that reports the delay of its link, only the

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The torques on the fingers in a glove. A spring holds each joint where an object stops the visible hand.
+/// The torques on the fingers in a glove. Where an object stops a joint of the visible hand, a spring pulls the joint
+/// of the wearer's hand toward the visible one.
 
 #include <array>
 #include <chrono>

@@ -77,7 +77,7 @@ constexpr const char* kSlideFooter =
     "stands still. The object pushes the part out of its way, and waits if the part cannot move out of the way.\n"
     "--moving writes one row per object and millisecond.\n"
     "\n"
-    "Assembly check: with several trajectories, --summary or --report, the output has one row per trajectory. A row\n"
+    "Assembly check: several trajectories, --summary or --report make the output one row per trajectory. A row\n"
     "says whether the part reached the goal of the scene (without a goal: the last row of the trajectory), and how\n"
     "far from the goal the part ended. A row also has the greatest force and torque on the hand, the smallest\n"
     "clearance and its time, and the time with contact forces. If the part or a moving object is in another object at\n"
