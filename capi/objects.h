@@ -34,7 +34,7 @@ struct SceneObject {
   simulation::Scene scene;
 };
 
-/// Something that one server at a time may use. Not thread-safe: the starting call holds the mutex of the object.
+/// Something that one server at a time may use. Thread-safe: the flag is atomic.
 class Claim {
  public:
   /// Throws std::invalid_argument if it is in use. `noun` is for the message.

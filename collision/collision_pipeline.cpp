@@ -18,12 +18,14 @@
 namespace glissade::collision {
 namespace {
 
+constexpr int kMostThreads = 1024;
+
 const PipelineOptions& checked(const PipelineOptions& options) {
   if (!(options.greatest_distance >= 0.0 && std::isfinite(options.greatest_distance))) {
     throw std::invalid_argument("the greatest distance of a collision pipeline must be finite and not negative, not " +
                                 std::to_string(options.greatest_distance) + " m");
   }
-  if (options.threads < 0) {
+  if (options.threads < 0 || options.threads > kMostThreads) {
     throw std::invalid_argument("a collision pipeline cannot have " + std::to_string(options.threads) + " threads");
   }
   return options;

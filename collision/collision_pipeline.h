@@ -30,7 +30,8 @@ class GLISSADE_EXPORT CollisionPipeline {
  public:
   /// The pipeline becomes the only consumer of `world`: only the pipeline may call `World::take_changes`. World and
   /// clock must outlive the pipeline. The clock is used for measurements only. Throws std::invalid_argument if the
-  /// `greatest_distance` of `options` is negative or not finite, or if the number of threads is negative.
+  /// `greatest_distance` of `options` is negative or not finite, or if the number of threads is not
+  /// between 0 and 1024.
   CollisionPipeline(World& world, const realtime::Clock& clock, const PipelineOptions& options = {});
   ~CollisionPipeline();
   CollisionPipeline(const CollisionPipeline&) = delete;

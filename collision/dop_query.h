@@ -11,7 +11,7 @@
 /// Each query throws std::invalid_argument in these cases:
 /// - The trees were built with different options.
 /// - The distance is negative or not a number.
-/// - The pose is not finite.
+/// - The pose is not finite, or the coordinates of its translation add up to more than 1e12 m.
 /// - The matrix R of the pose is a reflection.
 /// - The absolute values of the entries of RᵀR − 1 add up to 1e-3 or more. A smaller sum that is not 0 makes queries
 ///   slower, but not less exact.
@@ -73,8 +73,8 @@ struct Penetration {
   double depth() const { return way_out_A.norm(); }
 };
 
-/// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, ≥ 0)
-/// apart. A query at the translated pose confirms the result.
+/// Finds a short translation of B, from its pose X_AB, after which the meshes are more than `clearance` (metres, 0 to
+/// 1e9) apart. A query at the translated pose confirms the result.
 ///
 /// Because of this confirmation, the depth is a guaranteed upper bound of the length of the shortest translation that
 /// separates the two surfaces. A shorter translation may exist. The search tries directions of the whole sphere, the

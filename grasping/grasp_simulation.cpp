@@ -57,7 +57,7 @@ class GraspSimulation::Life {
     if (hands.size() > hands::kMaxHands)
       throw std::invalid_argument("at most " + std::to_string(hands::kMaxHands) + " hands can grasp, not " +
                                   std::to_string(hands.size()));
-    if (std::abs(up_W_.norm() - 1.0) > kUnitTolerance)
+    if (!(std::abs(up_W_.norm() - 1.0) <= kUnitTolerance))
       throw std::invalid_argument("the direction against gravity must be a unit vector");
     for (std::size_t p = 0; p < parts.size() && !hands_.empty(); ++p) {
       if (!parts_.is_scripted(p)) parts_.release(p);

@@ -1,7 +1,9 @@
-"""Compares yes-or-no queries of the module for Python with Glissade and FCL in C++: bench_python.py QUERY_TIMES [ROUNDS].
+"""Compares yes-or-no queries of the module for Python with Glissade and FCL in C++: bench_python.py QUERY_TIMES [PAIRS].
 
-Two meshes of 50,000 triangles at 10,000 random poses. In each round, the three take turns, so that a slow time of the
-machine affects all alike. Prints medians over the rounds of ratios within a round. FCL passes over every tenth pose."""
+Two meshes of 50,000 triangles at 10,000 random poses. Where the system places the memory of a process changes its speed
+by a tenth, so the comparison has PAIRS pairs of processes, 21 by default. In each round of a pair, the three subjects take
+turns, so that a slow time of the machine affects all alike; FCL passes over every tenth pose. Prints the median and the
+quartiles over the pairs of the medians of ratios within a round."""
 
 import pathlib
 import statistics
@@ -14,7 +16,8 @@ from conftest import ball_of, random_poses, torus_of  # of tests/python
 
 import glissade
 
-POSES, FCL_STRIDE = 10_000, 10
+POSES, FCL_STRIDE, ROUNDS = 10_000, 10, 11
+ONE_PAIR = "one-pair"
 
 
 class InCpp:
@@ -30,14 +33,14 @@ class InCpp:
         return float(seconds), int(count)
 
 
-def main():
-    program, rounds = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 21
+def compare(program):
+    """Medians over the rounds: time of Python by time of C++, and time of FCL by time of Python."""
     torus, sphere = torus_of(50_000), ball_of(50_000)
     X_AB = random_poses(POSES, 0.15, seed=3)
     of_python, of_fcl = [], []
     with tempfile.TemporaryDirectory() as folder:
         cpp = InCpp(program, X_AB, pathlib.Path(folder))
-        for _ in range(rounds):
+        for _ in range(ROUNDS):
             glissade.intersects(torus, sphere, X_AB)  # caches hold these trees again
             start = time.perf_counter()
             meets = glissade.intersects(torus, sphere, X_AB)
@@ -49,9 +52,21 @@ def main():
             of_fcl.append(fcl * FCL_STRIDE / in_python)
         cpp.process.stdin.close()
         cpp.process.wait()
-    for text, ratios in (("Python / C++", of_python), ("FCL in C++ / Python", of_fcl)):
+    return statistics.median(of_python), statistics.median(of_fcl)
+
+
+def main():
+    program, pairs = sys.argv[1], sys.argv[2] if len(sys.argv) > 2 else "21"
+    if pairs == ONE_PAIR:
+        print(*compare(program))
+        return
+    medians = []
+    for _ in range(int(pairs)):
+        pair = subprocess.run([sys.executable, __file__, program, ONE_PAIR], stdout=subprocess.PIPE, text=True, check=True)
+        medians.append([float(ratio) for ratio in pair.stdout.split()])
+    for text, ratios in zip(("Python / C++", "FCL in C++ / Python"), zip(*medians)):
         q1, median, q3 = statistics.quantiles(ratios, n=4)
-        print(f"{text}: median {median:.3f}, quartiles {q1:.3f} and {q3:.3f}, {len(ratios)} rounds of {POSES} poses")
+        print(f"{text}: median {median:.3f}, quartiles {q1:.3f} and {q3:.3f}, of {pairs} pairs of processes")
 
 
 if __name__ == "__main__":

@@ -6,12 +6,20 @@
 
 namespace glissade::collision {
 
+namespace {
+
+/// Far more than two bodies within ±1e9 m are apart, and far from an overflow.
+constexpr double kGreatestTranslation_m = 1e12;
+
+}  // namespace
+
 QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB)
     : base_is_A(base_is_first(tree_A, tree_B)) {
   const Eigen::Matrix3d& R_AB = X_AB.linear();
   rotation_defect = geometry::rotation_defect(R_AB);
-  if (!(rotation_defect < 1e-3) || !geometry::is_right_handed(R_AB) || !X_AB.translation().allFinite()) {
-    throw std::invalid_argument("the pose X_AB of a query is not a finite rotation and translation");
+  if (!(rotation_defect < 1e-3) || !geometry::is_right_handed(R_AB) ||
+      !(X_AB.translation().lpNorm<1>() <= kGreatestTranslation_m)) {
+    throw std::invalid_argument("the pose X_AB of a query is not a rotation and a translation within 1e12 m");
   }
   if (!(tree_A.options() == tree_B.options())) {
     throw std::invalid_argument("the two trees of a query were built with different options");

@@ -12,8 +12,8 @@
 namespace glissade::collision {
 
 struct QueryFrame {
-  /// Takes X_AB as the queries do. Throws std::invalid_argument if it is not finite or if its matrix is not a rotation
-  /// (`rotation_defect` below 1e-3), and for trees with different options.
+  /// Takes X_AB as the queries do. Throws std::invalid_argument if its matrix is not a rotation (`rotation_defect`
+  /// below 1e-3), if its translation is not within 1e12 m, and for trees with different options.
   QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
 
   /// Whether the first of two trees is the base.

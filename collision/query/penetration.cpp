@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include <glissade/collision/dop_query.h>
@@ -213,6 +214,8 @@ class WayOut {
 
 Penetration find_way_out(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB,
                          QueryWorkspace& workspace, double clearance) {
+  if (!(clearance >= 0.0 && clearance <= 1e9))
+    throw std::invalid_argument("the clearance of a way out is not between 0 and 1e9 m");
   return {WayOut(tree_A, tree_B, X_AB, workspace, clearance).find()};
 }
 

@@ -31,18 +31,23 @@ Numbers numbers_from(const py::object& argument, const std::string& name);
 void check_finite(const Numbers& numbers, const std::string& name);
 
 /// One pose, or several in an array: rows (…, 7) of x, y, z (metres) and the quaternion qw, qx, qy, qz, or matrices
-/// (…, 4, 4). A quaternion may be up to 1e-3 longer or shorter than 1. A matrix keeps its bits. A pose is converted and
-/// checked where it is used, so that a query of many short ones does not read them twice.
+/// (…, 4, 4). A quaternion may be up to 1e-3 longer or shorter than 1. A matrix keeps its bits. The array is the
+/// caller's own if it has such numbers, so other threads must not change it meanwhile: a copy would slow short queries.
 class Poses {
  public:
+  /// Throws for an array that has not the shape of poses.
   Poses(const py::object& argument, std::string name);
+
+  /// Throws if `operator[]` throws for any pose. For work that takes much longer than the check.
+  void check() const;
 
   std::size_t size() const { return static_cast<std::size_t>(numbers_.size() / values_each_); }
   /// Of the array without the axes of a pose; empty for one pose.
   const std::vector<py::ssize_t>& shape() const { return shape_; }
   bool is_single() const { return shape_.empty(); }
 
-  /// Pose i in the order of the rows. Needs no interpreter lock. Throws std::invalid_argument, naming the pose.
+  /// Pose i in the order of the rows. Needs no interpreter lock. Throws std::invalid_argument, naming the pose, if it
+  /// is no rotation and translation within 1e9 m.
   Eigen::Isometry3d operator[](std::size_t i) const;
   std::vector<Eigen::Isometry3d> all() const;
 

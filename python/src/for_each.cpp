@@ -7,6 +7,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -104,8 +105,11 @@ void for_each(std::int64_t count, int threads, const std::function<Worker()>& ma
   const Unlocked unlocked;
   SharedWork shared(count, threads);
   std::vector<std::jthread> others;
-  for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, count); ++i)
-    others.emplace_back([&] { shared.take_part(make_worker, [] {}); });
+  try {
+    for (std::int64_t i = 1; i < std::min<std::int64_t>(threads, count); ++i)
+      others.emplace_back([&] { shared.take_part(make_worker, [] {}); });
+  } catch (const std::system_error&) {  // the system has no more threads: those that run do the work
+  }
   shared.take_part(make_worker, SignalCheck());
   others.clear();  // joins
   shared.rethrow();

@@ -43,8 +43,11 @@ std::vector<geometry::Triangle> triangles_from(const py::object& argument, std::
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (std::int32_t& corner : triangles[i]) {
       if (*index < 0 || std::cmp_greater_equal(*index, vertices)) {
-        throw std::invalid_argument("triangles[" + std::to_string(i) + "] has the index " + std::to_string(*index) +
-                                    ", but there are " + std::to_string(vertices) + " vertices");
+        const bool is_unsigned = given.dtype().kind() == 'u';  // then a large index is not negative
+        throw std::invalid_argument(
+            "triangles[" + std::to_string(i) + "] has the index " +
+            (is_unsigned ? std::to_string(static_cast<std::uint64_t>(*index)) : std::to_string(*index)) +
+            ", but there are " + std::to_string(vertices) + " vertices");
       }
       corner = static_cast<std::int32_t>(*index++);
     }

@@ -1,4 +1,5 @@
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -18,6 +19,7 @@ namespace glissade::python {
 
 namespace {
 
+using collision::ConvexHull;
 using collision::DopTree;
 using collision::ObjectId;
 
@@ -28,7 +30,7 @@ class Objects {
       : world_(capacity), pipeline_(world_, clock_, {.greatest_distance = greatest_distance, .threads = threads}) {}
 
   std::uint64_t add(const std::shared_ptr<DopTree>& tree, const Eigen::Isometry3d& X_WO) {
-    return number_of(world_.add({tree, std::make_shared<collision::ConvexHull>(tree->mesh()), X_WO}));
+    return number_of(world_.add({tree, hull_of(tree), X_WO}));
   }
   void remove(std::uint64_t object) { world_.remove(id_of(object)); }
   void disable_pair(std::uint64_t a, std::uint64_t b) { world_.disable_pair(id_of(a), id_of(b)); }
@@ -56,6 +58,16 @@ class Objects {
     return {static_cast<std::uint32_t>(number), static_cast<std::uint32_t>(number >> 32U)};
   }
 
+  /// The hull of a tree, which all objects with this tree share.
+  std::shared_ptr<const ConvexHull> hull_of(const std::shared_ptr<DopTree>& tree) {
+    std::erase_if(hulls_, [](const auto& entry) { return entry.second.expired(); });
+    std::weak_ptr<const ConvexHull>& known = hulls_[tree];
+    std::shared_ptr<const ConvexHull> hull = known.lock();
+    if (hull == nullptr) known = hull = std::make_shared<const ConvexHull>(tree->mesh());
+    return hull;
+  }
+
+  std::map<std::weak_ptr<DopTree>, std::weak_ptr<const ConvexHull>, std::owner_less<>> hulls_;
   realtime::SteadyClock clock_;
   collision::World world_;
   collision::CollisionPipeline pipeline_;

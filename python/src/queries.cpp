@@ -95,6 +95,7 @@ py::object pairs(const py::object& tree_A, const py::object& tree_B, const py::o
                  bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
   const Poses X_AB(poses, "X_AB");
+  X_AB.check();
   check_is_list(X_AB);
   std::vector<std::vector<TrianglePair>> answers(X_AB.size());
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
@@ -155,6 +156,7 @@ py::object pairs_within(const py::object& tree_A, const py::object& tree_B, cons
                         bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
   const Poses X_AB(poses, "X_AB");
+  X_AB.check();
   check_is_list(X_AB);
   std::vector<std::vector<ClosePair>> answers(X_AB.size());
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
@@ -167,6 +169,7 @@ ClosestPoints distance(const py::object& tree_A, const py::object& tree_B, const
                        bool is_coherent, int threads) {
   const Trees trees(tree_A, tree_B);
   const Poses X_AB(poses, "X_AB");
+  X_AB.check();
   ClosestPoints points(X_AB.shape());
   const Row row(points);
   for_each_pose(X_AB, is_coherent, threads, [&](auto& workspace, std::size_t i) {
@@ -180,6 +183,7 @@ py::array_t<double> way_out(const py::object& tree_A, const py::object& tree_B, 
                             double clearance, int threads) {
   const Trees trees(tree_A, tree_B);
   const Poses X_AB(poses, "X_AB");
+  X_AB.check();
   py::array_t<double> ways = new_array<double>(X_AB.shape(), {3});
   double* const way = ways.mutable_data();
   for_each_pose<QueryWorkspace>(X_AB, threads, [&](QueryWorkspace& workspace, std::size_t i) {
@@ -223,7 +227,8 @@ tree_A, tree_B: a Tree of each mesh. X_AB: the pose of B in the frame of A, (7,)
 (n, 4, 4). The answer is a bool, or an array of n. It is exact: that of real arithmetic on the vertices of A and the
 transformed vertices of B. Touching counts. A mesh has no inside: B wholly inside a closed A does not intersect it.
 coherent: the poses are a path, so neighbours share their work; the answers are the same. threads: that work on the poses.
-Other Python threads run meanwhile. Raises ValueError, naming the pose, for a pose that is no rigid one.)");
+Other Python threads run meanwhile, but must not change the arrays. Raises ValueError, naming the pose, for a pose that is
+no rotation and translation within 1e9 m.)");
   module.def("pairs", &pairs, A, B, poses, py::arg("tolerance") = 0.0, only_names, coherent, threads,
              R"(All pairs of triangles at most `tolerance` metres apart; with 0, those that intersect.
 

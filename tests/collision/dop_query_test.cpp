@@ -13,6 +13,7 @@
 
 #include "allocation_counter.h"
 #include "expect_bad_input.h"
+#include "poses.h"
 
 namespace glissade::collision {
 namespace {
@@ -101,7 +102,10 @@ TEST(DopQuery, RefusesInvalidPoses) {
     Isometry3d flat = Isometry3d::Identity();
     flat.linear().setZero();
     expect_pose_refused(flat);
+    for (const double far : {-2e12, 1e13, 1e160, 1e300})
+      expect_pose_refused(test_support::at(0.0, far));
     EXPECT_NO_THROW(query.ask(tree, tree, Isometry3d::Identity()));
+    EXPECT_NO_THROW(query.ask(tree, tree, test_support::at(1e12)));
   }
 }
 

@@ -90,6 +90,19 @@ TEST(MeshDistance, NamesTheFirstOfPairsThatAreEquallyNear) {
   EXPECT_EQ(found.nearest->triangles, pairs.front().triangles);
 }
 
+TEST(MeshDistance, IsFoundHoweverFarTheMeshesAreApart) {
+  const auto box = std::make_shared<const geometry::TriangleMesh>(geometry::make_box({1, 1, 1}, 12));
+  const DopTree tree(box);
+  QueryWorkspace workspace;
+  for (const double far : {1e4, 1e9, 1e12}) {
+    Isometry3d X_AB = Isometry3d::Identity();
+    X_AB.translation().y() = far;
+    EXPECT_NEAR(distance(tree, tree, X_AB, workspace).distance, far - 1.0, 1e-15 * far);
+    EXPECT_FALSE(intersects(tree, tree, X_AB, workspace, 0.9 * far));
+    EXPECT_TRUE(intersects(tree, tree, X_AB, workspace, 1e300));
+  }
+}
+
 TEST(MeshDistance, WarmStartKeepsTheResultAtLowerCost) {
   const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 5'000));
   const DopTree tree(sphere);

@@ -120,7 +120,8 @@ TEST(WayOut, RefusesInvalidPosesAndClearances) {
   const DopTree box = tree_of(geometry::make_box({1.0, 1.0, 1.0}, 48));
   QueryWorkspace workspace;
   EXPECT_THROW(find_way_out(box, box, at(std::nan("")), workspace), std::invalid_argument);
-  EXPECT_THROW(find_way_out(box, box, at(0.0), workspace, -1.0), std::invalid_argument);
+  for (const double bad : {-1.0, std::nan(""), 2e9, 1e160})
+    EXPECT_THROW(find_way_out(box, box, at(0.0), workspace, bad), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,10 +1,11 @@
 // Answers of the library in C++, for the tests of the module for Python:
-//   python_answers queries POSES OUT    a small sphere beside a torus, at each pose X_AB: as 4 doubles, whether they
-//                                       intersect, their distance, and the triangles of the closest points
+//   python_answers queries POSES OUT    a small sphere beside a torus, at each pose X_AB: as 10 doubles, whether they
+//                                       intersect, their distance, and triangles and coordinates of the closest points
 //   python_answers slide GHOSTS OUT     a box on a plate follows each pose: X_WV, row by row, and the force on the hand
 // POSES and GHOSTS are matrices of 16 doubles, row by row.
 #include <cstddef>
 #include <fstream>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,6 +29,8 @@ class Output {
   std::ofstream file_;
 };
 
+const Eigen::Vector3d kNone = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+
 void answer_queries(const std::vector<Eigen::Isometry3d>& X_AB, Output& out) {
   const collision::DopTree torus(std::make_shared<geometry::TriangleMesh>(geometry::make_torus(0.08, 0.03, 50'000)));
   const collision::DopTree sphere(std::make_shared<geometry::TriangleMesh>(geometry::make_sphere(0.04, 50'000)));
@@ -38,6 +41,10 @@ void answer_queries(const std::vector<Eigen::Isometry3d>& X_AB, Output& out) {
     out.put(answer.distance);
     out.put(answer.nearest ? answer.nearest->triangles.triangle_A : -1);
     out.put(answer.nearest ? answer.nearest->triangles.triangle_B : -1);
+    for (const Eigen::Vector3d& p :
+         {answer.nearest ? answer.nearest->p_A : kNone, answer.nearest ? answer.nearest->p_B : kNone})
+      for (const double coordinate : p)
+        out.put(coordinate);
   }
 }
 

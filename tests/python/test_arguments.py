@@ -6,6 +6,20 @@ from conftest import at, box_on_plate
 
 import glissade
 
+
+
+def far(x):
+    pose = np.eye(4)
+    pose[0, 3] = x
+    return pose
+
+
+def with_up(up_W):
+    scene = box_on_plate()
+    scene.up_W = up_W
+    return scene
+
+
 NOT_POSES = [
     ("text", TypeError, "X_AB is an array of <U4, not of real numbers"),
     (None, TypeError, "X_AB is an array of object"),
@@ -20,6 +34,10 @@ NOT_POSES = [
     (2 * np.eye(4), ValueError, "X_AB: the last row of a pose is 0, 0, 0, 1"),
     (np.diag([1, 1, -1, 1]), ValueError, "reflection"),
     (np.diag([2, 2, 2, 1]), ValueError, "rotation"),
+    (np.diag([1.0002, 1, 1, 1]), ValueError, "rotation"),
+    ([1e160, 0, 0, 1, 0, 0, 0], ValueError, "X_AB: the position 1e+160 is beyond 1e9 m"),
+    (far(1e160), ValueError, "X_AB: the position 1e+160 is beyond 1e9 m"),
+    (far(-2e9), ValueError, "X_AB: the position -2e+09 is beyond 1e9 m"),
 ]
 
 
@@ -73,6 +91,8 @@ def test_arrays_of_any_stride_type_and_order_are_read(cube):
     [
         (lambda cube: glissade.intersects(cube, cube, at(0, 0, 0), tolerance=-1.0), "tolerance or distance is negative"),
         (lambda cube: glissade.intersects(cube, cube, at(0, 0, 0), threads=0), "threads must be at least 1, not 0"),
+        (lambda cube: glissade.way_out(cube, cube, at(0, 0, 0), clearance=np.inf), "clearance of a way out is not between"),
+        (lambda cube: glissade.Pipeline(threads=100_000), "cannot have 100000 threads"),
         (lambda cube: glissade.Mesh([[0, 0, 0]], [[0, 1, 2]]), "triangles[0] has the index 1, but there are 1 vertices"),
         (lambda cube: glissade.Mesh([[0, 0]], [[0, 0, 0]]), "vertices must have the shape (n, 3)"),
         (lambda cube: glissade.Tree(glissade.Mesh(np.zeros((3, 3)), [[0, 1, 2]])), "triangle"),
@@ -87,6 +107,8 @@ def test_arrays_of_any_stride_type_and_order_are_read(cube):
         (lambda cube: glissade.Scene.parse("objects: 3", "mine.yaml"), "mine.yaml"),
         (lambda cube: glissade.Scene().add("a", glissade.Mesh.shape("box"), motion=([0, 1], [at(0, 0, 0)])), "motion"),
         (lambda cube: glissade.Simulation(glissade.Scene()), "no object is movable"),
+        (lambda cube: glissade.Simulation(with_up([np.nan, 0, 0])), "the direction against gravity must be a unit vector"),
+        (lambda cube: glissade.Mesh(np.zeros((3, 3)), np.array([[0, 1, 2**64 - 1]], dtype=np.uint64)), "18446744073709551615"),
         (lambda cube: glissade.Simulation(box_on_plate()).advance([at(0, 0, 0)] * 2), "2 poses for 1 part"),
         (lambda cube: glissade.Simulation(box_on_plate()).follow(at(0, 0, 0)), "X_WG must have the shape (n, 7)"),
         (lambda cube: glissade.Simulation(box_on_plate()).advance_hands([None]), "1 posture for 0 hands"),
