@@ -26,7 +26,8 @@ const PipelineOptions& checked(const PipelineOptions& options) {
                                 std::to_string(options.greatest_distance) + " m");
   }
   if (options.threads < 0 || options.threads > kMostThreads) {
-    throw std::invalid_argument("a collision pipeline cannot have " + std::to_string(options.threads) + " threads");
+    throw std::invalid_argument("a collision pipeline cannot have " + std::to_string(options.threads) +
+                                " threads, but 0 to 1024");
   }
   return options;
 }

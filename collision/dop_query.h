@@ -10,8 +10,9 @@
 ///
 /// Each query throws std::invalid_argument in these cases:
 /// - The trees were built with different options.
-/// - The distance is negative or not a number.
-/// - The pose is not finite, or the coordinates of its translation add up to more than 1e12 m.
+/// - The distance is negative or not a number; the clearance is not between 0 and 1e9 m.
+/// - The pose is not finite, or the absolute values of the coordinates of its translation add up to more than 1e12 m.
+/// - The centres of the meshes are farther apart than 1e18 times the radius of the larger mesh.
 /// - The matrix R of the pose is a reflection.
 /// - The absolute values of the entries of RᵀR − 1 add up to 1e-3 or more. A smaller sum that is not 0 makes queries
 ///   slower, but not less exact.

@@ -68,7 +68,15 @@ struct SafetyEnvelope::Stages {
     const nanoseconds passed = has_been_called ? now - last_call : nanoseconds(0);
     has_been_called = true;
     last_call = now;
+    if (passed > expiry_of_limits(in_seconds(period))) drop_held();
     return in_seconds(std::clamp(passed, nanoseconds(0), 2 * period));
+  }
+
+  /// After so long without a command, the device has dropped its limits and half-spaces. They return as after a fade.
+  void drop_held() noexcept {
+    const bool dropped_half_spaces = half_spaces.drop();
+    const bool dropped_limits = finger_limits.drop();
+    if (dropped_half_spaces || dropped_limits) fade.begin_at_zero();
   }
 
   DeviceDescriptor descriptor;  // with the maxima that the rates lower

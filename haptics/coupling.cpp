@@ -18,6 +18,14 @@ contact::CouplingStiffness damping_over_lag(const devices::DeviceDescriptor& dev
           devices::passive_limit(device.rotational_damping, device.max_rotational_stiffness, own_lag, lag)};
 }
 
+contact::CouplingStiffness passive_at(const devices::DeviceDescriptor& device, double lag) noexcept {
+  contact::CouplingStiffness limit = damping_over_lag(device, lag);
+  if (device.friction > 0.0 && device.resolution > 0.0) {
+    limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
+  }
+  return limit;
+}
+
 }  // namespace
 
 void validate_tick_period(std::chrono::nanoseconds period) {
@@ -28,11 +36,7 @@ void validate_tick_period(std::chrono::nanoseconds period) {
 
 contact::CouplingStiffness passive_stiffness(const devices::DeviceDescriptor& device, std::chrono::nanoseconds period,
                                              std::chrono::nanoseconds delay) noexcept {
-  contact::CouplingStiffness limit = damping_over_lag(device, devices::tool_lag(device, period, delay));
-  if (device.friction > 0.0 && device.resolution > 0.0) {
-    limit.translational = std::min(limit.translational, 2.0 * device.friction / device.resolution);
-  }
-  return limit;
+  return passive_at(device, devices::tool_lag(device, period, delay));
 }
 
 Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
@@ -45,16 +49,17 @@ Coupling coupling_for(const devices::DeviceDescriptor& device, const contact::Co
 }
 
 Coupling coupling_within_limits(const devices::DeviceDescriptor& device, const contact::CouplingStiffness& wanted,
-                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
-                                double lever) noexcept {
-  const double lag = devices::tool_lag(device, period, delay);
+                                std::chrono::nanoseconds period, std::chrono::nanoseconds delay, double lever,
+                                double of_link) noexcept {
+  const double lag =
+      std::lerp(devices::tool_lag(device, period, delay), devices::lag_of(device, period, delay), of_link);
   // What the device's own damping leaves.
   const auto damping = [lag](double stiffness, double limit) {
     return std::clamp((limit - stiffness) * lag, 0.0, kLoop.damping_time_s * stiffness);
   };
   const contact::CouplingStiffness greatest = damping_over_lag(device, lag);
   const LeverLimit limit{greatest.translational, greatest.rotational, lever};
-  const contact::CouplingStiffness passive = passive_stiffness(device, period, delay);
+  const contact::CouplingStiffness passive = passive_at(device, lag);
   Coupling coupling;
   contact::CouplingStiffness& K = coupling.stiffness;
   K.translational = std::min({wanted.translational, device.max_stiffness, passive.translational});

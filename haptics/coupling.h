@@ -59,11 +59,15 @@ GLISSADE_EXPORT Coupling coupling_for(const devices::DeviceDescriptor& device, c
 /// Like `coupling_for`, but without the check, and for a part whose reference point is at the distance l = `lever`
 /// (metres) from that of the device. The spring against translation then also turns the device, like a spring of the
 /// stiffness K l² against rotation. The device's rotational damping must keep this spring passive, too.
-/// `max_rotational_stiffness` does not limit this spring. Real-time safe.
+/// `max_rotational_stiffness` does not limit this spring.
+///
+/// Half-spaces of a part that presses on a part in another hand move with their own hand, by way of the other part, and
+/// late by the period and the delay of the link. For these, the lag of the device's own loop is not all. `of_link`,
+/// from 0 to 1, is the share of the way from that lag to the lag of a wrench over the link. Real-time safe.
 GLISSADE_EXPORT Coupling coupling_within_limits(const devices::DeviceDescriptor& device,
                                                 const contact::CouplingStiffness& wanted,
                                                 std::chrono::nanoseconds period, std::chrono::nanoseconds delay,
-                                                double lever = 0.0) noexcept;
+                                                double lever = 0.0, double of_link = 0.0) noexcept;
 
 /// The damper's wrench on the hand, for the velocity v_W of the ghost's reference point (m/s) and the angular velocity
 /// w_W of the ghost (rad/s). The damper acts along the force and the torque of the contacts only. So the damper does

@@ -274,7 +274,8 @@ void HapticKernel::refer(HandInDevice& hand, Rendering& r) noexcept {
   r.p_WH = r.has_pose ? Eigen::Vector3d(r.state.X_WH.translation()) : hand.p_Wref;
   r.lever = part.radius + (p_Vref - part.p_Vref).norm();  // no point of the part is farther from p_Vref
   r.p_Wref = r.tick.part ? Eigen::Vector3d(holds_->ghost_of_hand(r.number) * p_Vref) : r.p_WH;
-  r.softness = hand.soften(hand.couplings[p], period_, r.state.link_delay, (r.p_Wref - r.p_WH).norm(), is_new, r.dt);
+  r.softness = hand.soften(hand.couplings[p], period_, r.state.link_delay, (r.p_Wref - r.p_WH).norm(),
+                           r.tick.part && contacts_->meets_led_part(p), is_new, r.dt);
   if (is_new || p_Vref != hand.p_Vref) {
     hand.contacts.move_reference(hand.p_Wref, r.p_Wref);
     hand.owed = 0.0;

@@ -198,15 +198,14 @@ std::vector<Entry> household_entries() {
 
 /// In alphabetical order.
 const std::vector<Entry>& entries() {
-  // Never destroyed: a thread may still make a shape while the program ends.
-  static const auto& entries = *[] {
-    auto* const all = new std::vector<Entry>(surface_and_part_entries());
-    std::ranges::copy(machine_element_entries(), std::back_inserter(*all));
-    std::ranges::copy(household_entries(), std::back_inserter(*all));
-    std::ranges::sort(*all, {}, [](const Entry& entry) { return entry.shape.name; });
+  static const std::vector<Entry> kEntries = [] {
+    std::vector<Entry> all = surface_and_part_entries();
+    std::ranges::copy(machine_element_entries(), std::back_inserter(all));
+    std::ranges::copy(household_entries(), std::back_inserter(all));
+    std::ranges::sort(all, {}, [](const Entry& entry) { return entry.shape.name; });
     return all;
   }();
-  return entries;
+  return kEntries;
 }
 
 template <class Items, class NameOf>
@@ -221,13 +220,14 @@ std::string joined_names(const Items& items, NameOf name_of) {
 }  // namespace
 
 const std::vector<Shape>& shape_catalog() {
-  static const auto& shapes = *[] {  // never destroyed, like the entries
-    auto* const all = new std::vector<Shape>;
-    for (const Entry& entry : entries())
-      all->push_back(entry.shape);
-    return all;
+  static const std::vector<Shape> kCatalog = [] {
+    std::vector<Shape> shapes;
+    for (const Entry& entry : entries()) {
+      shapes.push_back(entry.shape);
+    }
+    return shapes;
   }();
-  return shapes;
+  return kCatalog;
 }
 
 geometry::TriangleMesh make_shape(const std::string& name, const std::map<std::string, double>& parameters) {

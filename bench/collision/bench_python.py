@@ -60,12 +60,14 @@ def main():
     if pairs == ONE_PAIR:
         print(*compare(program))
         return
+    if int(pairs) < 2:
+        sys.exit("bench_python: quartiles need at least 2 pairs of processes")
     medians = []
     for _ in range(int(pairs)):
         pair = subprocess.run([sys.executable, __file__, program, ONE_PAIR], stdout=subprocess.PIPE, text=True, check=True)
         medians.append([float(ratio) for ratio in pair.stdout.split()])
     for text, ratios in zip(("Python / C++", "FCL in C++ / Python"), zip(*medians)):
-        q1, median, q3 = statistics.quantiles(ratios, n=4)
+        q1, median, q3 = statistics.quantiles(ratios, n=4, method="inclusive")
         print(f"{text}: median {median:.3f}, quartiles {q1:.3f} and {q3:.3f}, of {pairs} pairs of processes")
 
 

@@ -8,8 +8,10 @@ namespace glissade::collision {
 
 namespace {
 
-/// Far more than two bodies within ±1e9 m are apart, and far from an overflow.
+/// Far more than two bodies within ±1e9 m are apart.
 constexpr double kGreatestTranslation_m = 1e12;
+/// Distances in radii are single precision, and are squared.
+constexpr double kGreatestDistance_radii = 1e18;
 
 }  // namespace
 
@@ -37,6 +39,9 @@ QueryFrame::QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen
   } else {
     R_MN = R_AB.transpose();
     p_MN = -(R_MN * centers);
+  }
+  if (!(p_MN.lpNorm<1>() <= kGreatestDistance_radii)) {
+    throw std::invalid_argument("the meshes of a query are more than 1e18 times as far apart as they are large");
   }
 
   // Sums of coordinates bound lengths.

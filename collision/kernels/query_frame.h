@@ -13,7 +13,9 @@ namespace glissade::collision {
 
 struct QueryFrame {
   /// Takes X_AB as the queries do. Throws std::invalid_argument if its matrix is not a rotation (`rotation_defect`
-  /// below 1e-3), if its translation is not within 1e12 m, and for trees with different options.
+  /// below 1e-3), if the absolute
+  /// coordinates of its translation add up to more than 1e12 m, for meshes more than 1e18 of their radii apart, and for
+  /// trees with different options.
   QueryFrame(const DopTree& tree_A, const DopTree& tree_B, const Eigen::Isometry3d& X_AB);
 
   /// Whether the first of two trees is the base.

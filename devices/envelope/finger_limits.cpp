@@ -39,7 +39,8 @@ const JointLimits& FingerLimits::limit(const JointLimits& wanted, const hands::J
                                        const Fade& fade, double dt, LimitReasons& reasons) noexcept {
   if (stiffness_ <= 0.0) return last_;
   observe_rates(angles, dt);
-  is_fading ? remember(angles) : settle_fade(angles);
+  is_fading ? remember() : settle_fade(angles);
+  newest_angles_ = angles;
   const bool are_resting = resting_for_s_ > kEnvelope.rested_s;
   const double refill_W = are_resting ? kEnvelope.limits_rest_refill_W : kEnvelope.limits_refill_W;
   energy_ += refill_W * dt;
@@ -110,11 +111,19 @@ bool FingerLimits::tighten(JointLimit& limit, const JointLimit& last, double ang
   return limit != wanted;
 }
 
-/// Where the fingers were when the limits began to fade, and what limits they had.
-void FingerLimits::remember(const hands::JointValues& angles) noexcept {
+bool FingerLimits::drop() noexcept {
+  if (!last_.any()) return false;
+  remember();
+  last_ = {};
+  last_.expiry = expiry_;
+  return true;
+}
+
+/// Where the fingers were before the limits began to fade, and what limits they had.
+void FingerLimits::remember() noexcept {
   if (before_fade_) return;
   before_fade_ = last_;
-  angles_before_fade_ = angles;
+  angles_before_fade_ = newest_angles_;
 }
 
 /// Where the fingers went in the meantime is not known. What is left of the energy that they had put in comes back, as

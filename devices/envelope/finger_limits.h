@@ -26,11 +26,14 @@ class FingerLimits {
   const JointLimits& limit(const JointLimits& wanted, const hands::JointValues& angles, bool is_fading,
                            const Fade& fade, double dt, LimitReasons& reasons) noexcept;
 
+  /// The device has dropped the limits. Returns whether there were any.
+  bool drop() noexcept;
+
  private:
   JointLimit within_device(std::size_t joint, const JointLimit& wanted, LimitReasons& reasons) const noexcept;
   bool tighten(JointLimit& limit, const JointLimit& last, double angle, double dt) const noexcept;
   void observe_rates(const hands::JointValues& angles, double dt) noexcept;
-  void remember(const hands::JointValues& angles) noexcept;
+  void remember() noexcept;
   void settle_fade(const hands::JointValues& angles) noexcept;
   bool pay(const hands::JointValues& angles, JointLimits& next, double dt) noexcept;
 
@@ -43,9 +46,10 @@ class FingerLimits {
   JointLimits last_;
   std::optional<JointLimits> before_fade_;
   hands::JointValues angles_before_fade_{};
-  hands::JointValues last_angles_{};
-  hands::JointValues rates_{};  // rad/s, smoothed
-  double resting_for_s_ = 0.0;  // all fingers
+  hands::JointValues newest_angles_{};  // in the last call
+  hands::JointValues last_angles_{};    // within their play
+  hands::JointValues rates_{};          // rad/s, smoothed
+  double resting_for_s_ = 0.0;          // all fingers
 };
 
 }  // namespace glissade::devices

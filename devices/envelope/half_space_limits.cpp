@@ -45,10 +45,11 @@ HalfSpaceLimits::HalfSpaceLimits(const DeviceDescriptor& descriptor, const RateL
 HeldEnergy HalfSpaceLimits::want(const HalfSpaces& wanted, const GloveState& state, bool is_fading, const Fade& fade,
                                  double most_N, double dt, LimitReasons& reasons) noexcept {
   if (!are_taken()) return {};
+  if (is_fading) begin_fade();
   X_WH_ = state.X_WH;
   observe_rest(X_WH_, dt);
+  if (before_fade_) left_J_ = std::min(left_J_, stored_energy(*before_fade_, X_WH_));
   if (is_fading) {
-    observe_fade();
     next_ = last_;
     next_.max_force = std::max(0.0, last_.max_force - dt / fade_s_ * descriptor_.max_force);
     change_softly(dt);  // a device may be too slow for this, or the torque too great
@@ -66,6 +67,13 @@ HeldEnergy HalfSpaceLimits::want(const HalfSpaces& wanted, const GloveState& sta
           .rests = resting_for_s_ > kEnvelope.rested_s,
           .gain = gain,
           .returned = returned};
+}
+
+bool HalfSpaceLimits::drop() noexcept {
+  if (!last_.any()) return false;
+  begin_fade();
+  last_ = {.expiry = expiry_};
+  return true;
 }
 
 double HalfSpaceLimits::give(double available_J, double dt, LimitReasons& reasons) noexcept {
@@ -153,12 +161,11 @@ void HalfSpaceLimits::observe_rest(const Eigen::Isometry3d& X_WH, double dt) noe
 }
 
 /// Where the hand goes in the meantime is not always known. What is left of the energy that it had put in comes back.
-void HalfSpaceLimits::observe_fade() noexcept {
-  if (!before_fade_) {
-    before_fade_ = last_;
-    left_J_ = stored_energy(last_, X_WH_);
-  }
-  left_J_ = std::min(left_J_, stored_energy(*before_fade_, X_WH_));
+/// So what it has put in counts where the hand was last.
+void HalfSpaceLimits::begin_fade() noexcept {
+  if (before_fade_) return;
+  before_fade_ = last_;
+  left_J_ = stored_energy(last_, X_WH_);
 }
 
 double HalfSpaceLimits::take_back() noexcept {

@@ -42,6 +42,9 @@ class HalfSpaceLimits {
   /// what the spring gains.
   double give(double available_J, double dt, LimitReasons& reasons) noexcept;
 
+  /// The device has dropped what was given. Returns whether there was anything.
+  bool drop() noexcept;
+
   /// What was given, and its wrench on the hand; the wrench of what was wanted.
   const HalfSpaces& given() const noexcept { return last_; }
   const HandWrench& given_wrench() const noexcept { return given_wrench_; }
@@ -51,7 +54,7 @@ class HalfSpaceLimits {
   HalfSpaces within_device(const HalfSpaces& wanted, double most_N, LimitReasons& reasons) const noexcept;
   bool change_softly(double dt) noexcept;
   void observe_rest(const Eigen::Isometry3d& X_WH, double dt) noexcept;
-  void observe_fade() noexcept;
+  void begin_fade() noexcept;
   double take_back() noexcept;
 
   const DeviceDescriptor& descriptor_;

@@ -143,6 +143,14 @@ void ContactProjection::solve_island(const ContactSet& set, std::span<const LedP
   add_friction({stiffness.data(), count}, projection);
 }
 
+bool ContactProjection::meets_led_part(std::size_t part) const noexcept {
+  if (!acts_[part]) return false;
+  for (std::size_t p = 0; p < part_count_; ++p) {
+    if (p != part && acts_[p] && island_[p] == island_[part]) return true;
+  }
+  return false;
+}
+
 std::size_t ContactProjection::constraints_of(std::size_t part,
                                               std::span<contact::ConstraintRow> nearest) const noexcept {
   if (!acts_[part] || contacts_[part].is_unsolved) return 0;

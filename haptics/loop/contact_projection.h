@@ -61,6 +61,9 @@ class ContactProjection {
   /// Of the last call. Exactly zero where no contact of the set is in the way.
   const PartContacts& of_part(std::size_t part) const { return contacts_[part]; }
 
+  /// Whether a row in range is between this part and another that a hand leads.
+  bool meets_led_part(std::size_t part) const noexcept;
+
   /// Fills `nearest` with constraints on the displacement of the part from the pose of its rows, and returns how many.
   /// Those that push come first, the greatest force first; then those with the smallest gap. The other parts stand
   /// where the last call has put them. None if the rows have no solution.

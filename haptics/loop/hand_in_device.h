@@ -29,6 +29,7 @@ struct HandInDevice {
   Coupling present{};
   double link_delay_s = 0.0;
   double lever_m = 0.0;  // from the hand to the reference point, smoothed
+  double of_link = 0.0;  // 1 while the part is near a part in another hand, smoothed
   ContactForce contacts;
   devices::SafetyEnvelope envelope;
   bool is_fading = false;                            // in the last tick
@@ -60,11 +61,12 @@ struct HandInDevice {
     return lifted;
   }
 
-  /// Adapts the present coupling to the delay of the link and to the distance of the part's reference point. Returns
-  /// the share of the coupling's force that is left: force and torque shrink alike, so that the wrench stays a sum of
-  /// contact normals. It applies to what is wanted from now on: a force that is there falls from where it is.
+  /// Adapts the present coupling to the delay of the link, to the distance of the part's reference point, and to
+  /// whether the part meets one in another hand. Returns the share of the coupling's force that is left: force and
+  /// torque shrink alike, so that the wrench stays a sum of contact normals. It applies to what is wanted from now on:
+  /// a force that is there falls from where it is.
   double soften(const Coupling& coupling, std::chrono::nanoseconds period, std::chrono::nanoseconds link_delay,
-                double distance, bool is_new, double dt) noexcept {
+                double distance, bool meets_led_part, bool is_new, double dt) noexcept {
     const double delay_s =
         std::clamp(std::chrono::duration<double>(link_delay).count(), 0.0, kLoop.longest_link_delay_s);
     link_delay_s += std::min(1.0, dt / kLoop.follows_link_s) * (delay_s - link_delay_s);
@@ -74,9 +76,10 @@ struct HandInDevice {
       lever_m +=
           std::clamp((is_new ? 1.0 : std::min(1.0, dt / kLoop.follows_link_s)) * (distance - lever_m), -most, most);
     }
+    of_link += std::min(1.0, dt / kLoop.follows_link_s) * ((meets_led_part ? 1.0 : 0.0) - of_link);
     const auto delay =
         std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::duration<double>(link_delay_s));
-    present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay, lever_m);
+    present = coupling_within_limits(envelope.descriptor(), coupling.stiffness, period, delay, lever_m, of_link);
     if (fingers) fingers->set_link_delay(delay);
     return std::min(present.stiffness.translational / coupling.stiffness.translational,
                     present.stiffness.rotational / coupling.stiffness.rotational);

@@ -101,7 +101,9 @@ void SignalCheck::look() {
 }
 
 void for_each(std::int64_t count, int threads, const std::function<Worker()>& make_worker) {
-  if (threads < 1) throw std::invalid_argument("threads must be at least 1, not " + std::to_string(threads));
+  constexpr int kMostThreads = 1024;
+  if (threads < 1 || threads > kMostThreads)
+    throw std::invalid_argument("threads must be between 1 and 1024, not " + std::to_string(threads));
   const Unlocked unlocked;
   SharedWork shared(count, threads);
   std::vector<std::jthread> others;

@@ -8,10 +8,10 @@
 
 namespace glissade::python {
 
-/// Calls worker(i) for each i from 0 to `count` − 1, with one worker for each thread. `threads` is at least 1. The
-/// calling thread must hold the interpreter lock, which it gives back meanwhile. Rethrows the exception of the lowest i
-/// that throws. Throws std::invalid_argument for `threads` below 1, and pybind11::error_already_set after a signal such
-/// as Ctrl-C.
+/// Calls worker(i) for each i from 0 to `count` − 1, with one worker for each thread. There are `threads` threads, 1 to
+/// 1024, or as many as the system has. The calling thread must hold the interpreter lock, which it gives back
+/// meanwhile. Rethrows the exception of the lowest i that throws. Throws std::invalid_argument for another number of
+/// threads, and pybind11::error_already_set after a signal such as Ctrl-C.
 void for_each(std::int64_t count, int threads, const std::function<std::function<void(std::int64_t)>()>& make_worker);
 
 /// Looks for signals, such as Ctrl-C, some times a second, however often it is called. Does nothing in threads other

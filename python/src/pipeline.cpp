@@ -60,7 +60,10 @@ class Objects {
 
   /// The hull of a tree, which all objects with this tree share.
   std::shared_ptr<const ConvexHull> hull_of(const std::shared_ptr<DopTree>& tree) {
-    std::erase_if(hulls_, [](const auto& entry) { return entry.second.expired(); });
+    if (hulls_.size() >= swept_at_) {
+      std::erase_if(hulls_, [](const auto& entry) { return entry.second.expired(); });
+      swept_at_ = 2 * hulls_.size() + 16;
+    }
     std::weak_ptr<const ConvexHull>& known = hulls_[tree];
     std::shared_ptr<const ConvexHull> hull = known.lock();
     if (hull == nullptr) known = hull = std::make_shared<const ConvexHull>(tree->mesh());
@@ -68,6 +71,7 @@ class Objects {
   }
 
   std::map<std::weak_ptr<DopTree>, std::weak_ptr<const ConvexHull>, std::owner_less<>> hulls_;
+  std::size_t swept_at_ = 16;  // size of hulls_ at which those that no object has any more are taken out
   realtime::SteadyClock clock_;
   collision::World world_;
   collision::CollisionPipeline pipeline_;

@@ -250,7 +250,7 @@ the surfaces, also for B wholly inside a closed A. A small limit saves time. For
       R"(A short translation of B, in the frame of A, after which the meshes are farther than `clearance` metres apart.
 
 Returns (3,) or (n, 3) metres: zero where they already are, as where B is wholly inside a closed A. Its length is an upper
-bound of the depth of penetration, which a query at the translated pose has confirmed. For the other arguments, see
+bound of the depth of penetration, which a query at the translated pose has confirmed. clearance: 0 to 1e9. For the other arguments, see
 `intersects`.)");
 }
 

@@ -106,6 +106,7 @@ TEST(DopQuery, RefusesInvalidPoses) {
       expect_pose_refused(test_support::at(0.0, far));
     EXPECT_NO_THROW(query.ask(tree, tree, Isometry3d::Identity()));
     EXPECT_NO_THROW(query.ask(tree, tree, test_support::at(1e12)));
+    expect_pose_refused(test_support::at(6e11, -6e11));
   }
 }
 

@@ -103,6 +103,21 @@ TEST(MeshDistance, IsFoundHoweverFarTheMeshesAreApart) {
   }
 }
 
+// An overflow of the distance in radii.
+TEST(MeshDistance, IsRefusedIfTheMeshesAreTooSmallForIt) {
+  QueryWorkspace workspace;
+  for (const double edge : {1e-17, 1e-11, 1e-20, 1e-100, 1e-147}) {
+    const DopTree tree(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({edge, edge, edge}, 12)));
+    const double far = edge * 1e17;
+    Isometry3d X_AB = Isometry3d::Identity();
+    X_AB.translation().y() = far;
+    EXPECT_NEAR(distance(tree, tree, X_AB, workspace).distance, far - edge, 1e-15 * far);
+    EXPECT_TRUE(intersects(tree, tree, X_AB, workspace, 1.1 * far));
+    X_AB.translation().y() = 1e3 * far;
+    EXPECT_THROW(distance(tree, tree, X_AB, workspace), std::invalid_argument);
+  }
+}
+
 TEST(MeshDistance, WarmStartKeepsTheResultAtLowerCost) {
   const auto sphere = std::make_shared<const geometry::TriangleMesh>(geometry::make_sphere(1.0, 5'000));
   const DopTree tree(sphere);

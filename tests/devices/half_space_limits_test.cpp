@@ -225,6 +225,39 @@ TEST_F(HalfSpacesInEnvelope, ManyShortInterruptionsCostNothing) {
   }
 }
 
+/// Time in which nobody calls the envelope, so that the device drops its half-spaces.
+TEST_F(HalfSpacesInEnvelope, WhatTheDeviceHasDroppedReturnsSoftlyAndIsPaidFor) {
+  hold(floor_at(0.0), 2'000);
+  double got = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    now_ += milliseconds(100);
+    move_to(-50e-3);
+    tick(floor_at(0.0));
+    ASSERT_LT(force().z(), 1.0) << "the device pushed with nothing";
+    got += glide_to(-50e-3, floor_at(0.0), 100);
+    got += glide_to(0.0, floor_at(0.0), 800);
+  }
+  EXPECT_LE(got, 0.1 + 1.0 + 0.3 * 32.0) << "promise 9";
+}
+
+TEST_F(HalfSpacesInEnvelope, WhatTheDeviceHasDroppedReturnsToAHandThatStayed) {
+  hold(floor_at(0.0), 300);
+  glide_to(-15e-3, floor_at(0.0), 100);
+  for (int i = 0; i < 50; ++i) {
+    now_ += milliseconds(30);
+    hold(floor_at(0.0), 300);
+    ASSERT_NEAR(force().z(), 15.0, 1e-9) << i;
+  }
+}
+
+TEST_F(HalfSpacesInEnvelope, StayWithTheDeviceThroughAShortHalt) {
+  hold(floor_at(0.0), 300);
+  glide_to(-15e-3, floor_at(0.0), 100);
+  now_ += milliseconds(8);
+  tick(floor_at(0.0));
+  EXPECT_NEAR(force().z(), 15.0, 1e-9);
+}
+
 // A hand that goes in without a force puts nothing in, and one that goes out in the fade has got it back.
 TEST_F(HalfSpacesInEnvelope, InterruptionsPayNoMoreThanPromised) {
   hold(floor_at(0.0), 300);

@@ -249,6 +249,34 @@ TEST_F(LimitsInEnvelope, ManyShortInterruptionsCostNothing) {
   }
 }
 
+// Nobody calls the envelope, so the device opens its limits, and the finger goes in against nothing.
+TEST_F(LimitsInEnvelope, WhatTheDeviceHasDroppedReturnsSoftlyAndIsPaidFor) {
+  hold(kAtHalf, 400);
+  double got = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    now_ += milliseconds(100);
+    state_.joint_angles[kIndexMcp] = 0.7;
+    tick(kAtHalf);
+    ASSERT_LT(std::abs(torque()), 0.05) << "the device pushed with nothing";
+    for (int ms = 0; ms < 100; ++ms) {
+      got -= 2e-3 * torque();
+      state_.joint_angles[kIndexMcp] -= 2e-3;
+      tick(kAtHalf);
+    }
+  }
+  EXPECT_LE(got, 0.1) << "the account of the limits has 20 mJ and 5 mW";
+}
+
+TEST_F(LimitsInEnvelope, WhatTheDeviceHasDroppedReturnsToAFingerThatStayed) {
+  hold(kAtHalf, 300);
+  state_.joint_angles[kIndexMcp] = 0.65;
+  for (int i = 0; i < 50; ++i) {
+    hold(kAtHalf, 300);
+    ASSERT_NEAR(torque(), -0.3, 1e-12) << i;
+    now_ += milliseconds(30);
+  }
+}
+
 TEST_F(LimitsInEnvelope, NumbersThatAreNoneOpenAllLimits) {
   hold(kAtHalf, 300);
   JointLimit bad = kAtHalf;

@@ -88,6 +88,17 @@ def test_threads_and_coherence_change_no_bit(torus, ball, options):
     assert (glissade.intersects(torus, ball, poses) == glissade.intersects(torus, ball, poses, **options)).all()
 
 
+def test_a_pipeline_whose_objects_come_and_go_agrees_with_queries():
+    pipeline = glissade.Pipeline(threads=1)
+    for i in range(100):
+        trees = [glissade.Tree(glissade.Mesh.shape("box", size_x_m=0.01 * (1 + (i + k) % 5))) for k in range(2)]
+        a, b, c = (pipeline.add(tree, at(x, 0, 0)) for tree, x in [(trees[0], 0), (trees[1], 0.03), (trees[0], 1)])
+        meets = glissade.intersects(trees[0], trees[1], at(0.03, 0, 0))
+        assert pipeline.step().tolist() == ([[a, b]] if meets else [])
+        for one in [a, b, c]:
+            pipeline.remove(one)
+
+
 def test_a_pipeline_finds_the_pairs_that_meet(cube):
     pipeline = glissade.Pipeline(threads=1)
     a, b, c = (pipeline.add(cube, at(0.2 * i, 0, 0)) for i in range(3))

@@ -7,6 +7,8 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/haptics/offline_run.h>
+
 #include "rubbed_box.h"
 
 namespace glissade::haptics {
@@ -41,6 +43,36 @@ TEST(HeldHalfSpacesInTheLoop, HandRestsWhereTheSpringsBalance) {
   const double wearer = devices::SimulatedGloveParameters().wearer_stiffness;
   const double depth = wearer / (wearer + stiffness) * RubbedBox::kAim;
   EXPECT_NEAR(0.5 * RubbedBox::kEdge - least, depth, 0.01 * depth);
+}
+
+// The half-spaces of B move with its own hand, by way of the part of A, and a period late.
+TEST(HeldHalfSpacesInTheLoop, HandsThatPressTheirPartsTogetherComeToRest) {
+  using test_support::at;
+  constexpr double kEdge = 0.04;
+  const auto pressing = [](double sign) {
+    const double start = sign * (0.5 * kEdge + 1e-3);
+    return geometry::PoseTrajectory({{milliseconds(0), at(start)},
+                                     {milliseconds(1500), at(start - 0.05 * sign)},
+                                     {milliseconds(20000), at(start - 0.05 * sign)}});
+  };
+  const devices::SimulatedGloveParameters light{.mass = 0.2, .wearer_stiffness = 200.0, .wearer_damping = 3.0};
+  devices::GloveModel arm = holding_arm();
+  arm.update_rate = 30.0;
+  devices::SimulatedGlove glove_A(pressing(-1.0), light);
+  devices::SimulatedGlove glove_B(pressing(1.0), light, arm);
+  grasping::GraspSimulation sliding{{},
+                                    {{.part_V = test_support::cube(kEdge), .X_WV_start = at(-0.5 * kEdge - 1e-3)},
+                                     {.part_V = test_support::cube(kEdge), .X_WV_start = at(0.5 * kEdge + 1e-3)}}};
+  double least = 1.0;
+  double greatest = -1.0;
+  run_offline({{&glove_A, 0}, {&glove_B, 1}}, sliding, 20000, [&](const devices::HapticState& state) {
+    if (state.time < milliseconds(15000)) return;
+    const double x = glove_B.true_state().X_WH.translation().x();
+    least = std::min(least, x);
+    greatest = std::max(greatest, x);
+  });
+  EXPECT_LT(greatest - least, 0.1e-3);
+  EXPECT_GT(least, 0.5 * kEdge + 1e-3 - 0.05) << "the part of A holds the hand back";
 }
 
 // What a wrench would be over the same link.
