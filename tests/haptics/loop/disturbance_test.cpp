@@ -72,7 +72,10 @@ class FeltLimits {
     const double slew =
         seconds * 1e3 / (takes_ == Takes::kJointLimits ? 2.0 : 7.0);  // periods from zero to the maximum
     const Felt felt = felt_of(command, state);
-    // What the last command would exert now: a constraint that stands still changes nothing.
+    // What the last command would exert now: a constraint that stands still changes nothing. After so long a time, the
+    // device has dropped what it holds.
+    if (now - last_time_ > last_.half_spaces.expiry) last_.half_spaces = {};
+    if (now - last_time_ > last_.joint_limits.expiry) last_.joint_limits = {};
     const Felt before = felt_of(last_, state);
     const double change_f = (felt.f - before.f).norm();
     const bool opens = takes_ == Takes::kJointLimits && std::abs(felt.t.x()) < std::abs(before.t.x());
