@@ -106,7 +106,7 @@ TEST(MeshDistance, IsFoundHoweverFarTheMeshesAreApart) {
 // An overflow of the distance in radii.
 TEST(MeshDistance, IsRefusedIfTheMeshesAreTooSmallForIt) {
   QueryWorkspace workspace;
-  for (const double edge : {1e-17, 1e-11, 1e-20, 1e-100, 1e-147}) {
+  for (const double edge : {1e-8, 1e-11, 1e-20, 1e-60}) {
     const DopTree tree(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({edge, edge, edge}, 12)));
     const double far = edge * 1e17;
     Isometry3d X_AB = Isometry3d::Identity();
@@ -116,6 +116,10 @@ TEST(MeshDistance, IsRefusedIfTheMeshesAreTooSmallForIt) {
     X_AB.translation().y() = 1e3 * far;
     EXPECT_THROW(distance(tree, tree, X_AB, workspace), std::invalid_argument);
   }
+  const DopTree tiny(std::make_shared<const geometry::TriangleMesh>(geometry::make_box({1e-147, 1e-147, 1e-147}, 12)));
+  Isometry3d X_AB = Isometry3d::Identity();
+  X_AB.translation().y() = 1e9;
+  EXPECT_THROW(distance(tiny, tiny, X_AB, workspace), std::invalid_argument);
 }
 
 TEST(MeshDistance, WarmStartKeepsTheResultAtLowerCost) {
