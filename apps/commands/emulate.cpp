@@ -17,10 +17,10 @@ namespace {
 
 constexpr const char* kEmulateFooter =
     "An emulator is a program that speaks the protocol of a device, so you can try a bridge without hardware. A\n"
-    "bridge cannot tell it from the device. The\n"
-    "fingers, motors and strings of the gloves 'dynamixel' and 'opengloves' have the dynamics of the presets of the\n"
-    "same names, see 'glissade glove --presets'. The hand of 'haply', and the fingers and palm of a glove, can follow\n"
-    "a script.\n"
+    "bridge cannot tell it from the device. The fingers, motors and strings of the gloves 'dynamixel' and "
+    "'opengloves'\n"
+    "have the dynamics of the presets of the same names, see 'glissade glove --presets'. The hand of 'haply', and the\n"
+    "fingers and palm of a glove, can follow a script.\n"
     "\n"
     "Examples:\n"
     "  glissade emulate opengloves --seconds 2\n"
