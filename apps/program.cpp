@@ -77,6 +77,7 @@ void declare_program(CLI::App& app, Command& chosen) {
   add_info_command(app, chosen);
   add_collide_command(app, chosen);
   add_slide_command(app, chosen);
+  add_study_command(app, chosen);
   add_grasp_command(app, chosen);
   add_run_command(app, chosen);
   add_record_command(app, chosen);

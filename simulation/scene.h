@@ -178,7 +178,15 @@ struct GLISSADE_EXPORT SceneBodies {
 /// - There are more than `contact::kMaxParts` parts and objects that move on their own.
 ///
 /// Building the trees of the meshes takes most of the time.
-GLISSADE_EXPORT SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names);
+///
+/// An object whose mesh, and compliance point if it is a part, are those of a body in `known` shares this body. So
+/// scenes that differ in poses only share all bodies.
+GLISSADE_EXPORT SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names,
+                                      std::span<const SceneBodies> known = {});
+
+/// A hash of all that a simulation takes from a scene: meshes, poses, margins, compliance points and scripts. A script
+/// counts by a thousand of its poses.
+GLISSADE_EXPORT std::uint64_t hash_of(const SceneBodies& bodies);
 
 /// All parts of a simulation: first the parts that hands can hold, then the objects that move on their own. For the
 /// stiffness, see `Scene`.

@@ -30,6 +30,9 @@ void add_demo_command(CLI::App& app, Command& chosen);
 /// `glissade slide SCENE --part NAME --trajectory FILE [--metaphor M] [--out FILE]`
 void add_slide_command(CLI::App& app, Command& chosen);
 
+/// `glissade study STUDY [--out FOLDER] [--workers N] [--shard I/N] [--slide N]`
+void add_study_command(CLI::App& app, Command& chosen);
+
 /// `glissade grasp SCENE --hand-trajectory FILE [--hand FILE] [--out FILE] [--objects FILE] [--report DIR]`
 void add_grasp_command(CLI::App& app, Command& chosen);
 

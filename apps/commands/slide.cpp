@@ -159,7 +159,7 @@ class Teller {
       ++impossible_;
       return;
     }
-    if (check.goal_reached) ++reached_;
+    if (check.measures.goal_reached) ++reached_;
     const double size_m = size_of(scene_.parts.front().part_V->tree.mesh());
     constexpr double kFar = 2.0;  // sizes of the part
     if (check.far_m > kFar * size_m) {
@@ -171,10 +171,10 @@ class Teller {
     if (!has_table_on_standard_output(options_)) {
       std::cout << check.trajectory << ": " << verdict(check, check_options_) << std::endl;
     }
-    if (options_.requires_goal && !check.goal_reached) {
+    if (options_.requires_goal && !check.measures.goal_reached) {
       std::cerr << "glissade: " << check.trajectory << ": the " << name_of_goal(check)
-                << " is not reached: the part ends " << rounded_text(1e3 * check.goal_distance_m) << " mm and "
-                << fixed_text(check.goal_angle_deg, 2) << " degrees from it; allowed are "
+                << " is not reached: the part ends " << rounded_text(1e3 * check.measures.goal_distance_m) << " mm and "
+                << fixed_text(check.measures.goal_angle_deg, 2) << " degrees from it; allowed are "
                 << goal_tolerance(check_options_) << '\n';
       if (exit_code_ == 0) exit_code_ = kGoalNotReached;
     }
@@ -206,8 +206,8 @@ std::optional<std::size_t> most_telling(const std::vector<SlideCheck>& checks) {
   std::optional<std::size_t> best;
   for (std::size_t i = 0; i < checks.size(); ++i) {
     if (checks[i].problem) continue;
-    if (!checks[i].goal_reached) return i;
-    if (!best || checks[i].force_max_N > checks[*best].force_max_N) best = i;
+    if (!checks[i].measures.goal_reached) return i;
+    if (!best || checks[i].measures.force_max_N > checks[*best].measures.force_max_N) best = i;
   }
   return best;
 }

@@ -4,8 +4,6 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
-#include <numbers>
-#include <set>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -20,7 +18,7 @@
 #include <glissade/apps/view/clearance_curve.h>
 #include <glissade/contact/spring.h>
 #include <glissade/reference/sliding_method.h>
-#include <glissade/simulation/least_clearance.h>
+#include <glissade/study/slide_meter.h>
 
 namespace glissade::apps {
 namespace {
@@ -28,27 +26,6 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t kPlottedChecks = 6;
-
-void note_goal(const Eigen::Isometry3d& X_WV, const Eigen::Isometry3d& X_WGoal, const SlideCheckOptions& options,
-               SlideCheck& check) {
-  check.goal_distance_m = (X_WV.translation() - X_WGoal.translation()).norm();
-  check.goal_angle_deg =
-      Eigen::AngleAxisd(X_WGoal.linear().transpose() * X_WV.linear()).angle() * 180.0 / std::numbers::pi;
-  check.goal_reached =
-      check.goal_distance_m <= options.goal_tolerance_m && check.goal_angle_deg <= options.goal_tolerance_deg;
-}
-
-/// The names of the objects that push the part, in the order of the scene.
-std::string text_of_pushing(const HapticScene& scene, std::span<const contact::Contact> contacts) {
-  std::set<std::int32_t> bodies;
-  for (const contact::Contact& contact : contacts) {
-    if (contact.force > 0.0) bodies.insert(contact.obstacle);
-  }
-  std::string names;
-  for (const std::int32_t body : bodies)
-    names += (names.empty() ? "" : ", ") + scene.body_names[static_cast<std::size_t>(body)];
-  return names;
-}
 
 /// How deep the part is in others at the first row, and what can be done about it.
 std::string advice(const HapticScene& scene, const FollowedTrajectory& trajectory, const SlideCheckOptions& options) {
@@ -109,7 +86,6 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
   SlideCheck check;
   check.trajectory = name;
   check.has_goal = scene.X_WGoal.has_value();
-  check.duration_s = in_seconds(trajectory.duration());
   check.doubt = doubt_of_positions(trajectory.positions(), scene);
   check.far_m = std::numeric_limits<double>::infinity();
   std::unique_ptr<reference::SlidingSimulation> sliding;
@@ -119,39 +95,29 @@ SlideCheck check_slide(const HapticScene& scene, FollowedTrajectory& trajectory,
     check.problem = error.what();
     return check;
   }
-  simulation::LeastClearance clearance(scene);
-  std::int64_t contact_ticks = 0;
+  const Eigen::Isometry3d X_WGoal = scene.X_WGoal.value_or(trajectory.last_pose());
+  study::SlideMeter meter(scene, {X_WGoal, options.goal_tolerance_m, options.goal_tolerance_deg},
+                          options.needs_summary);
   const std::int64_t ticks = trajectory.duration() / milliseconds(1);
   ClearanceCurve curve(scene, ticks + 1);
   GrowingCurve force(name);
   for (std::int64_t i = 0; i <= ticks; ++i) {
     const std::chrono::nanoseconds now = slide_to(i, trajectory, *sliding);
     const std::chrono::nanoseconds time = now - trajectory.first_time();
-    const contact::Wrench wrench = contact::contact_wrench(sliding->result(), sliding->part().p_Vref());
-    check.force_max_N = std::max(check.force_max_N, wrench.f.norm());
-    check.torque_max_Nm = std::max(check.torque_max_Nm, wrench.t.norm());
-    contact_ticks += sliding->result().pushing > 0 ? 1 : 0;
-    if (options.needs_summary) {
-      clearance.note(sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
-    }
+    const contact::SlidingResult& result = sliding->result();
+    meter.note(time, result, sliding->scripted_X_WB());
     if (options.needs_curve) {
-      force.add(in_seconds(time), wrench.f.norm());
-      curve.note(time, sliding->result().X_WV, sliding->scripted_X_WB(), sliding->result().contacts);
+      force.add(in_seconds(time), contact::contact_wrench(result, sliding->part().p_Vref()).f.norm());
+      curve.note(time, result.X_WV, sliding->scripted_X_WB(), result.contacts);
     }
     check.far_m = std::min(check.far_m, between_spheres(scene, *sliding));
     if (watch) watch(now, *sliding);
   }
-  check.contact_s = in_seconds(contact_ticks * milliseconds(1));
-  clearance.finish();
+  check.measures = meter.finish();
   check.force = force.series();
   check.clearance = curve.take(name);
-  check.clearance_min_m = clearance.least();
-  check.clearance_min_at_s = in_seconds(clearance.least_at() * milliseconds(1));
-  const Eigen::Isometry3d& X_WV = sliding->result().X_WV;
-  note_goal(X_WV, scene.X_WGoal.value_or(trajectory.last_pose()), options, check);
-  if (check.goal_reached) return check;
-  check.overlaps = text_of_overlaps(scene, std::span(&X_WV, 1), sliding->scripted_X_WB());
-  check.pushed_by = text_of_pushing(scene, sliding->result().contacts);
+  if (check.measures.goal_reached) return check;
+  check.overlaps = text_of_overlaps(scene, std::span(&check.measures.X_WV_end, 1), sliding->scripted_X_WB());
   return check;
 }
 
@@ -166,16 +132,18 @@ std::string goal_tolerance(const SlideCheckOptions& options) {
 
 std::string verdict(const SlideCheck& check, const SlideCheckOptions& options) {
   if (check.problem) return *check.problem;
-  const std::string clearance = std::isfinite(check.clearance_min_m)
-                                    ? "; least clearance " + rounded_text(1e3 * check.clearance_min_m) + " mm at " +
-                                          fixed_text(check.clearance_min_at_s, 3) + " s"
+  const std::string clearance = std::isfinite(check.measures.clearance_min_m)
+                                    ? "; least clearance " + rounded_text(1e3 * check.measures.clearance_min_m) +
+                                          " mm at " + fixed_text(check.measures.clearance_min_at_s, 3) + " s"
                                     : "";
-  return name_of_goal(check) + (check.goal_reached ? " reached, " : " not reached, ") +
-         fixed_text(1e3 * check.goal_distance_m, 3) + " mm and " + fixed_text(check.goal_angle_deg, 2) +
-         " degrees from it" + (check.goal_reached ? "" : " (allowed: " + goal_tolerance(options) + ")") +
-         (check.overlaps.empty() ? "" : ", still " + check.overlaps) + "; at most " + fixed_text(check.force_max_N, 2) +
-         " N and " + fixed_text(check.torque_max_Nm, 3) + " Nm about the part's reference point" + clearance + "; " +
-         fixed_text(check.contact_s, 3) + " of " + fixed_text(check.duration_s, 3) + " s in contact";
+  return name_of_goal(check) + (check.measures.goal_reached ? " reached, " : " not reached, ") +
+         fixed_text(1e3 * check.measures.goal_distance_m, 3) + " mm and " +
+         fixed_text(check.measures.goal_angle_deg, 2) + " degrees from it" +
+         (check.measures.goal_reached ? "" : " (allowed: " + goal_tolerance(options) + ")") +
+         (check.overlaps.empty() ? "" : ", still " + check.overlaps) + "; at most " +
+         fixed_text(check.measures.force_max_N, 2) + " N and " + fixed_text(check.measures.torque_max_Nm, 3) +
+         " Nm about the part's reference point" + clearance + "; " + fixed_text(check.measures.contact_s, 3) + " of " +
+         fixed_text(check.measures.duration_s, 3) + " s in contact";
 }
 
 namespace {
@@ -199,17 +167,17 @@ ReportTable table_of(const std::vector<SlideCheck>& checks) {
       row.resize(table.columns.size(), number_cell(std::numeric_limits<double>::quiet_NaN(), 0));
       continue;
     }
-    row.push_back({check.goal_reached ? "reached" : "missed"});
-    row.push_back({check.pushed_by});
-    row.push_back(number_cell(1e3 * check.goal_distance_m, 3));
-    row.push_back(number_cell(check.goal_angle_deg, 2));
-    row.push_back(number_cell(check.force_max_N, 2));
-    row.push_back(number_cell(check.torque_max_Nm, 3));
-    row.push_back(number_cell(1e3 * check.clearance_min_m, 4));
-    const bool is_near = std::isfinite(check.clearance_min_m);
-    row.push_back(number_cell(is_near ? check.clearance_min_at_s : check.clearance_min_m, 3));
-    row.push_back(number_cell(check.contact_s, 3));
-    row.push_back(number_cell(check.duration_s, 3));
+    row.push_back({check.measures.goal_reached ? "reached" : "missed"});
+    row.push_back({check.measures.goal_reached ? "" : check.measures.pushed_by});
+    row.push_back(number_cell(1e3 * check.measures.goal_distance_m, 3));
+    row.push_back(number_cell(check.measures.goal_angle_deg, 2));
+    row.push_back(number_cell(check.measures.force_max_N, 2));
+    row.push_back(number_cell(check.measures.torque_max_Nm, 3));
+    row.push_back(number_cell(1e3 * check.measures.clearance_min_m, 4));
+    const bool is_near = std::isfinite(check.measures.clearance_min_m);
+    row.push_back(number_cell(is_near ? check.measures.clearance_min_at_s : check.measures.clearance_min_m, 3));
+    row.push_back(number_cell(check.measures.contact_s, 3));
+    row.push_back(number_cell(check.measures.duration_s, 3));
   }
   return table;
 }
@@ -219,8 +187,9 @@ ReportTable table_of(const std::vector<SlideCheck>& checks) {
 Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks, const SlideCheckOptions& options) {
   Report report;
   report.title = "Assembly check of " + scene.parts.front().name;
-  const auto reached = std::count_if(checks.begin(), checks.end(),
-                                     [](const SlideCheck& check) { return !check.problem && check.goal_reached; });
+  const auto reached = std::count_if(checks.begin(), checks.end(), [](const SlideCheck& check) {
+    return !check.problem && check.measures.goal_reached;
+  });
   report.summary.emplace_back("scene", scene.source);
   report.summary.emplace_back("metaphor", std::string(contact::name_of(options.sliding.metaphor)));
   report.summary.emplace_back("method", std::string(reference::name_of(options.method)));
@@ -237,8 +206,9 @@ Report report_of(const HapticScene& scene, const std::vector<SlideCheck>& checks
   for (const SlideCheck& check : checks) {
     if (!check.problem) by_force.push_back(&check);
   }
-  std::stable_sort(by_force.begin(), by_force.end(),
-                   [](const SlideCheck* a, const SlideCheck* b) { return a->force_max_N > b->force_max_N; });
+  std::stable_sort(by_force.begin(), by_force.end(), [](const SlideCheck* a, const SlideCheck* b) {
+    return a->measures.force_max_N > b->measures.force_max_N;
+  });
   if (by_force.size() > kPlottedChecks) by_force.resize(kPlottedChecks);
   if (by_force.empty()) return report;
   // The page of a single trajectory has the force by its axes.

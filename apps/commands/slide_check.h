@@ -16,6 +16,7 @@
 #include <glissade/contact/sliding.h>
 #include <glissade/haptics/coupling.h>
 #include <glissade/reference/sliding_method.h>
+#include <glissade/study/slide_meter.h>
 
 namespace glissade::apps {
 
@@ -33,21 +34,12 @@ struct SlideCheck {
   std::string trajectory;              ///< the file's name
   std::optional<std::string> problem;  ///< one sentence: why the check was impossible; then all else is meaningless
   bool has_goal = false;               ///< of the scene; otherwise the goal is the end of the trajectory
-  bool goal_reached = false;
-  double goal_distance_m = 0.0;  ///< of the part's origin, at the end
-  double goal_angle_deg = 0.0;
-  double force_max_N = 0.0;
-  std::string overlaps;          ///< if the goal is not reached: "at most 0.1 mm deep in 'wall'", if it still is
-  std::string pushed_by;         ///< if the goal is not reached: the objects that push the part at the end
-  double torque_max_Nm = 0.0;    ///< about the part's reference point
-  double clearance_min_m = 0.0;  ///< of the visible part; infinite if left out
-  double clearance_min_at_s = 0.0;
-  double duration_s = 0.0;
-  double contact_s = 0.0;  ///< time during which contacts pushed
-  PlotSeries force;        ///< newtons over seconds
-  PlotSeries clearance;    ///< as of `ClearanceCurve`; empty if left out
-  std::string doubt;       ///< of the positions, see `doubt_of_positions`
-  double far_m = 0.0;      ///< a lower bound of the least clearance, from bounding spheres
+  study::SlideMeasures measures;
+  std::string overlaps;  ///< if the goal is not reached: "at most 0.1 mm deep in 'wall'", if it still is
+  PlotSeries force;      ///< newtons over seconds
+  PlotSeries clearance;  ///< as of `ClearanceCurve`; empty if left out
+  std::string doubt;     ///< of the positions, see `doubt_of_positions`
+  double far_m = 0.0;    ///< a lower bound of the least clearance, from bounding spheres
 };
 
 /// Called after each millisecond, first for the start, with the time on the clock of the trajectory.

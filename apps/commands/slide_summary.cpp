@@ -12,9 +12,10 @@ SlideSummary::SlideSummary(const std::string& path)
 
 void SlideSummary::add(const SlideCheck& check) {
   if (check.problem) return;
-  out_.add(check.trajectory).add(std::int64_t{check.goal_reached});
-  for (const double value : {check.goal_distance_m, check.goal_angle_deg, check.force_max_N, check.torque_max_Nm,
-                             check.clearance_min_m, check.clearance_min_at_s, check.duration_s, check.contact_s}) {
+  out_.add(check.trajectory).add(std::int64_t{check.measures.goal_reached});
+  for (const double value : {check.measures.goal_distance_m, check.measures.goal_angle_deg, check.measures.force_max_N,
+                             check.measures.torque_max_Nm, check.measures.clearance_min_m,
+                             check.measures.clearance_min_at_s, check.measures.duration_s, check.measures.contact_s}) {
     out_.add(value);
   }
   out_.end_row();

@@ -4,7 +4,6 @@
 
 #include <glissade/apps/record/recorded_scene.h>
 #include <glissade/apps/scene/embedded_scene.h>
-#include <glissade/apps/scene/scene_hash.h>
 #include <glissade/apps/view/session_view.h>
 
 namespace glissade::apps {
@@ -15,7 +14,7 @@ HapticScene recorded_scene(const std::string& log_path, const RecordedSession& s
       std::any_of(session.hands.begin(), session.hands.end(), [](const RecordedHand& hand) { return hand.fingers; });
   const Scene scene = read_or_embedded_scene(file, has_fingers ? Demonstration::kDoorModule : Demonstration::kCarDoor);
   HapticScene result = make_haptic_scene(scene, movable_objects(scene));
-  if (scene_hash(result) == session.scene_hash) return result;
+  if (simulation::hash_of(result) == session.scene_hash) return result;
   throw std::invalid_argument(result.source + ": is not the scene of " + log_path +
                               ", or has changed since; name the file that has its scene");
 }

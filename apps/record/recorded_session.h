@@ -32,7 +32,7 @@ struct RecordedHand {
 /// All that a replay needs to know before the first tick.
 struct RecordedSession {
   std::string scene_file;        ///< absolute path; empty: that of the demonstration
-  std::uint64_t scene_hash = 0;  ///< as `scene_hash` gives it
+  std::uint64_t scene_hash = 0;  ///< as `simulation::hash_of` gives it
   contact::SlidingRules rules;   ///< of the simulation, without those of `choice`
   SlidingChoice choice;
   std::chrono::nanoseconds period{haptics::kTickPeriod};  ///< of the haptic loop

@@ -3,10 +3,10 @@
 #include <numbers>
 
 #include <glissade/apps/durations.h>
-#include <glissade/apps/hash.h>
 #include <glissade/apps/run/missed_grasp.h>
 #include <glissade/apps/run/session.h>
 #include <glissade/apps/run/session_check.h>
+#include <glissade/files/hash.h>
 
 namespace glissade::apps {
 
@@ -16,7 +16,7 @@ constexpr double kGoalDistance_m = 2e-3;
 constexpr double kGoalAngle_rad = 2.0 * std::numbers::pi / 180.0;
 
 std::uint64_t hash_of(const SessionRecorder& samples) {
-  Hash hash;
+  files::Hash hash;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     for (std::size_t p = 0; p < samples.parts(); ++p)
       hash.add(samples.part(i, p).X_WV);

@@ -13,7 +13,6 @@
 #include <glissade/apps/run/session_sink.h>
 #include <glissade/apps/run/stop_errors.h>
 #include <glissade/apps/say.h>
-#include <glissade/apps/scene/scene_hash.h>
 #include <glissade/apps/scene/session_start.h>
 #include <glissade/apps/session/haptic_session.h>
 #include <glissade/apps/text.h>
@@ -36,7 +35,7 @@ RecordedSession offline_session(const HapticScene& scene, const Grip& grip, cons
   // There is no link, so the number of its session is made up.
   const devices::GloveInfo glove{.device = devices::kDefaultDevice, .session = 1, .descriptor = grip.device};
   return {.scene_file = recorded_path(record.scene_file),
-          .scene_hash = scene_hash(scene),
+          .scene_hash = simulation::hash_of(scene),
           .choice = choice,
           .hands = {{glove, grip.part, grip.fingers}}};
 }
@@ -46,7 +45,7 @@ RecordedSession real_time_session(const HapticScene& scene, const std::vector<de
                                   const std::vector<Grip>& grips, const RunSettings& settings,
                                   std::chrono::nanoseconds period) {
   RecordedSession session{.scene_file = recorded_path(settings.record.scene_file),
-                          .scene_hash = scene_hash(scene),
+                          .scene_hash = simulation::hash_of(scene),
                           .rules = contact::real_time_rules(),
                           .choice = settings.choice,
                           .period = period};

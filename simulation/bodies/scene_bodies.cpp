@@ -55,7 +55,27 @@ std::shared_ptr<const Body> make_body(const Scene& scene, const SceneObject& obj
   }
 }
 
-std::shared_ptr<const contact::SlidingPart> make_part(const Scene& scene, const SceneObject& object) {
+/// The part with this mesh and compliance point; null if there is none.
+std::shared_ptr<const contact::SlidingPart> known_part(std::span<const SceneBodies> known, const SceneObject& object) {
+  const auto is_same = [&](const contact::SlidingPart& part) {
+    if (&part.tree.mesh() != object.mesh.shared().get()) return false;
+    if (!object.compliance_point_B) return !part.has_chosen_point();
+    return part.has_chosen_point() && part.p_Vref() == *object.compliance_point_B;
+  };
+  for (const SceneBodies& bodies : known) {
+    for (const ScenePart& part : bodies.parts) {
+      if (is_same(*part.part_V)) return part.part_V;
+    }
+    for (const contact::ScriptedPart& part : bodies.moving) {
+      if (is_same(*part.part_B)) return part.part_B;
+    }
+  }
+  return nullptr;
+}
+
+std::shared_ptr<const contact::SlidingPart> make_part(const Scene& scene, const SceneObject& object,
+                                                      std::span<const SceneBodies> known) {
+  if (auto part = known_part(known, object)) return part;
   if (object.compliance_point_B) return make_body<contact::SlidingPart>(scene, object, *object.compliance_point_B);
   return make_body<contact::SlidingPart>(scene, object);
 }
@@ -63,7 +83,12 @@ std::shared_ptr<const contact::SlidingPart> make_part(const Scene& scene, const 
 /// Objects of one mesh share their body.
 class SharedBodies {
  public:
-  explicit SharedBodies(const Scene& scene) : scene_(scene) {}
+  SharedBodies(const Scene& scene, std::span<const SceneBodies> known) : scene_(scene) {
+    for (const SceneBodies& bodies : known) {
+      for (const contact::Obstacle& obstacle : bodies.obstacles)
+        bodies_.emplace(&obstacle.body->tree.mesh(), obstacle.body);
+    }
+  }
 
   std::shared_ptr<const contact::ContactBody> of(const SceneObject& object) {
     if (!object.giving_way.empty()) return make_body<contact::ContactBody>(scene_, object);
@@ -77,8 +102,8 @@ class SharedBodies {
   std::map<const geometry::TriangleMesh*, std::shared_ptr<const contact::ContactBody>> bodies_;
 };
 
-contact::ScriptedPart moving_part(const Scene& scene, const SceneObject& object) {
-  contact::ScriptedPart part{make_part(scene, object), object.motion->script_X_WB};
+contact::ScriptedPart moving_part(const Scene& scene, const SceneObject& object, std::span<const SceneBodies> known) {
+  contact::ScriptedPart part{make_part(scene, object, known), object.motion->script_X_WB};
   part.grip_N_per_m = object.motion->grip_N_per_m.value_or(part.grip_N_per_m);
   part.name = in_quotes(object.name);
   return part;
@@ -128,7 +153,8 @@ std::shared_ptr<const geometry::TriangleMesh> stopping_mesh(const SceneObject& o
   return std::make_shared<geometry::TriangleMesh>(geometry::without_triangles(*object.mesh, object.giving_way));
 }
 
-SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names) {
+SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names,
+                      std::span<const SceneBodies> known) {
   check_scene(scene);
   SceneBodies bodies{.source = scene.source, .X_WGoal = scene.X_WGoal};
   for (const std::string& name : part_names) {
@@ -136,9 +162,9 @@ SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_n
     if (part.motion)
       throw std::invalid_argument(named(scene, part) + " moves on its own, so it cannot be a part in a hand");
     if (bodies.part_number(name)) throw std::invalid_argument(named(scene, part) + " is named twice among the parts");
-    bodies.parts.push_back({part.name, make_part(scene, part), part.X_WB});
+    bodies.parts.push_back({part.name, make_part(scene, part, known), part.X_WB});
   }
-  SharedBodies shared(scene);
+  SharedBodies shared(scene, known);
   for (const SceneObject& object : scene.objects) {
     if (bodies.part_number(object.name) || object.motion) continue;
     bodies.obstacles.push_back({shared.of(object), object.X_WB, in_quotes(object.name), object.margin_m});
@@ -148,7 +174,7 @@ SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_n
     bodies.body_names.push_back(part.name);
   for (const SceneObject& object : scene.objects) {
     if (!object.motion) continue;
-    bodies.moving.push_back(moving_part(scene, object));
+    bodies.moving.push_back(moving_part(scene, object, known));
     bodies.body_names.push_back(object.name);
   }
   check_counts(bodies);

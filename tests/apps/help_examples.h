@@ -26,7 +26,8 @@ inline const std::vector<std::string> kCommands{"bridge",        "bridge dynamix
                                                 "log",           "log to-csv",
                                                 "log to-mcap",   "record",
                                                 "replay",        "run",
-                                                "slide",         "view"};
+                                                "slide",         "study",
+                                                "view"};
 
 /// The lines of a command's help that are examples.
 inline std::vector<std::string> examples_of(const std::string& command) {

@@ -42,7 +42,7 @@ TEST(HelpExamples, WorkAsTheyArePasted) {
   ASSERT_EQ(run_example("glissade example", folder).exit_code, 0);
   for (const std::string& command : test_support::kCommands) {
     for (const std::string& example : examples_of(command)) {
-      const bool is_slow = example.find("demo") != std::string::npos || command == "grasp";
+      const bool is_slow = example.find("demo") != std::string::npos || command == "grasp" || command == "study";
       if (test_support::needs_network(example) || (test_support::kSanitized && is_slow)) continue;
       SCOPED_TRACE(example);
       const ProgramResult result = run_example(example, folder);

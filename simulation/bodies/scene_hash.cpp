@@ -1,11 +1,13 @@
 #include <chrono>
 
-#include <glissade/apps/hash.h>
-#include <glissade/apps/scene/scene_hash.h>
+#include <glissade/files/hash.h>
+#include <glissade/simulation/scene.h>
 
-namespace glissade::apps {
+namespace glissade::simulation {
 
 namespace {
+
+using files::Hash;
 
 void add(Hash& hash, const geometry::TriangleMesh& mesh) {
   hash.add(std::uint64_t{mesh.vertices.size()});
@@ -35,18 +37,18 @@ void add(Hash& hash, const geometry::PoseTrajectory& script) {
 
 }  // namespace
 
-std::uint64_t scene_hash(const HapticScene& scene) {
+std::uint64_t hash_of(const SceneBodies& bodies) {
   Hash hash;
-  for (const ScenePart& part : scene.parts) {
+  for (const ScenePart& part : bodies.parts) {
     add(hash, *part.part_V);
     hash.add(part.X_WV_start);
   }
-  for (const contact::Obstacle& obstacle : scene.obstacles) {
+  for (const contact::Obstacle& obstacle : bodies.obstacles) {
     add(hash, obstacle.body->tree.mesh());
     hash.add(obstacle.X_WO);
     hash.add(obstacle.margin.value_or(-1.0));
   }
-  for (const contact::ScriptedPart& part : scene.moving) {
+  for (const contact::ScriptedPart& part : bodies.moving) {
     add(hash, *part.part_B);
     add(hash, part.script_X_WB);
     hash.add(part.grip_N_per_m);
@@ -54,4 +56,4 @@ std::uint64_t scene_hash(const HapticScene& scene) {
   return hash.value();
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::simulation

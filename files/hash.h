@@ -7,7 +7,7 @@
 
 #include <Eigen/Geometry>
 
-namespace glissade::apps {
+namespace glissade::files {
 
 /// FNV-1a over the bits of what is added, in its order.
 class Hash {
@@ -32,4 +32,4 @@ class Hash {
   std::uint64_t state_ = 0xcbf29ce484222325U;
 };
 
-}  // namespace glissade::apps
+}  // namespace glissade::files

@@ -1,0 +1,80 @@
+#pragma once
+
+/// The folder with the results of a study. Each run appends its rows to a journal, so that a run that was stopped loses
+/// nothing. When all rows are there, they are written in the order of the slides.
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <glissade/study/slide_runner.h>
+#include <glissade/study/study.h>
+
+namespace glissade::apps {
+
+/// The share of a study that one run does: the slides `part`, `part` + `parts`, `part` + 2 `parts` …, from 0.
+struct Shard {
+  std::int64_t part = 0;
+  std::int64_t parts = 1;
+
+  bool is_all() const { return parts == 1; }
+};
+
+/// Counts over all rows.
+struct StudyCounts {
+  std::int64_t rows = 0;
+  std::int64_t successes = 0;
+  std::int64_t problems = 0;
+};
+
+/// Not thread-safe. Memory: 16 bytes for each slide.
+class StudyFiles {
+ public:
+  /// Creates the folder if necessary, and finds all rows in it that belong to the study. Throws std::invalid_argument,
+  /// naming the file, if the folder cannot be created, if a file in it cannot be read, and if another run writes the
+  /// same journal.
+  StudyFiles(std::filesystem::path folder, const study::Study& study, const study::SlideRunner& runner,
+             const Shard& shard);
+  ~StudyFiles();
+  StudyFiles(const StudyFiles&) = delete;
+  StudyFiles& operator=(const StudyFiles&) = delete;
+
+  bool has(std::int64_t slide) const { return places_[static_cast<std::size_t>(slide)].file >= 0; }
+  std::int64_t count() const { return count_; }
+  /// Rows in the folder whose inputs differ from those of the study, for example because a mesh has changed since.
+  std::int64_t outdated() const { return outdated_; }
+
+  /// Appends a row to the journal; it is on its way to the disk when the call returns. Throws std::runtime_error if it
+  /// could not be written, for example on a full disk.
+  void add(std::int64_t slide, const std::string& json);
+
+  /// Writes slides.csv, slides.jsonl and study.json, if all rows are there, and removes the journals. Each file is
+  /// written under another name and then renamed. Throws std::runtime_error if it could not be written.
+  StudyCounts finish();
+
+ private:
+  struct Place {
+    std::int32_t file = -1;
+    std::int64_t offset = 0;
+  };
+
+  void find_rows(const std::filesystem::path& file);
+  void open_journal(const Shard& shard);
+  std::string row(std::int64_t slide);
+  void write_summary(const StudyCounts& counts) const;
+
+  std::filesystem::path folder_;
+  const study::Study& study_;
+  const study::SlideRunner& runner_;
+  std::vector<Place> places_;
+  std::vector<std::filesystem::path> paths_{};
+  std::vector<std::ifstream> files_{};
+  std::filesystem::path journal_path_{};
+  int journal_ = -1;
+  std::int64_t count_ = 0;
+  std::int64_t outdated_ = 0;
+};
+
+}  // namespace glissade::apps

@@ -1,0 +1,31 @@
+#pragma once
+
+/// Runs the slides of a study in several processes.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include <glissade/study/slide_runner.h>
+
+namespace glissade::apps {
+
+struct StudyWork {
+  std::string study_file;
+  int workers = 1;
+  std::chrono::nanoseconds longest{};  ///< time of a slide
+  /// The next slide to run; std::nullopt if there is none. Not called by two threads at once.
+  std::function<std::optional<std::int64_t>()> next;
+  /// Takes the row of a slide as JSON. Not called by two threads at once.
+  std::function<void(std::int64_t slide, const std::string& json)> take;
+  /// Whether to stop before all slides are done. Thread-safe.
+  std::function<bool()> should_stop;
+};
+
+/// A slide whose process dies is tried three times, each time in a new process. Then, and if it takes too long, its row
+/// tells the problem. Throws what `take` throws, after the slides that are running have been stopped.
+void run_slides(const study::Study& study, const study::SlideRunner& runner, const StudyWork& work);
+
+}  // namespace glissade::apps

@@ -1,0 +1,50 @@
+#pragma once
+
+/// A process that runs slides of a study. If a slide crashes, only this process ends.
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include <sys/types.h>
+
+namespace glissade::apps {
+
+/// Not thread-safe; different objects may be used in different threads.
+class WorkerProcess {
+ public:
+  /// The option of `glissade study` that makes the program a worker: see `serve_slides`.
+  static constexpr const char* kOption = "--worker";
+
+  /// Starts the program again, as a worker of this study. The worker ends with the thread that called the constructor.
+  /// Throws std::system_error when the system refuses a process.
+  explicit WorkerProcess(const std::string& study_file);
+  /// Kills the worker.
+  ~WorkerProcess();
+  WorkerProcess(const WorkerProcess&) = delete;
+  WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+  enum class Outcome : std::uint8_t { kDone, kDied, kTooLong, kStopped };
+  struct Answer {
+    Outcome outcome;
+    std::string json{};    ///< if it is done
+    std::string reason{};  ///< if the worker died: how
+  };
+  /// Waits for the row of a slide, at most for this time. Returns early if `should_stop` is true. If the outcome is not
+  /// `kDone`, this object is of no more use.
+  Answer run(std::int64_t slide, std::chrono::nanoseconds longest, const std::function<bool()>& should_stop);
+
+ private:
+  std::string reason_of_death();
+
+  int socket_ = -1;
+  pid_t id_ = -1;
+  std::string received_{};
+};
+
+/// The work of a worker: for each line on the standard input, the number of a slide, it writes `row(number)` to the
+/// standard output as a line. Returns at the end of the input.
+void serve_slides(const std::function<std::string(std::int64_t)>& row);
+
+}  // namespace glissade::apps

@@ -1,0 +1,176 @@
+/// `glissade study`: the same bytes for any number of processes, also after faults.
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <thread>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <glissade/files/text_file.h>
+
+#include "glissade_program.h"
+#include "temporary_folder.h"
+
+namespace glissade::apps {
+namespace {
+
+using files::read_text_file;
+using test_support::expect_refused;
+using test_support::glissade;
+using test_support::ProgramResult;
+using testing::HasSubstr;
+
+class StudyCommand : public testing::Test {
+ protected:
+  StudyCommand() {
+    folder.write("scene.yaml",
+                 "objects:\n"
+                 "  - {name: plate, shape: {type: holed_plate, hole_radius_m: 0.0042}}\n"
+                 "  - {name: peg, movable: true, shape: {type: peg}, compliance_point_m: [0, 0, 0]}\n");
+    folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n0.05,0,0,-0.003,1,0,0,0\n");
+    study = write_study("study.yaml", kSlides);
+  }
+
+  std::string write_study(const std::string& name, int slides) const {
+    return folder.write(name,
+                        "scene: scene.yaml\npart: peg\ntrajectory: path.csv\n"
+                        "parameters: [{vary: path.x_m, uniform: [-0.002, 0.002]}]\n"
+                        "success: {distance_m: 0.003}\nslides: " +
+                            std::to_string(slides) + "\n");
+  }
+
+  /// Runs the study and gives its table.
+  std::string table_of(const std::string& out, const std::vector<std::string>& more = {}) const {
+    std::vector<std::string> arguments{"study", study, "--out", folder.path(out), "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult result = glissade(arguments);
+    EXPECT_EQ(result.exit_code, 0) << result.standard_error;
+    return std::filesystem::exists(folder.path(out + "/slides.csv")) ? read_text_file(folder.path(out + "/slides.csv"))
+                                                                     : "";
+  }
+
+  /// Waits until a worker runs a slide, and kills it.
+  void kill_a_worker(const std::string& out) const {
+    const std::string journal = folder.path(out + "/slides.journal.jsonl");
+    while (!std::filesystem::exists(journal) || std::filesystem::file_size(journal) == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    // The brackets keep the pattern from matching the shell that runs this command.
+    EXPECT_EQ(std::system(("pkill -KILL -n -f '" + study + " --worke[r]'").c_str()), 0);
+  }
+
+  static constexpr int kSlides = 60;
+  test_support::TemporaryFolder folder;
+  std::string study;
+};
+
+TEST_F(StudyCommand, TablesAreTheSameForAnyNumberOfProcessesAndShards) {
+  const std::string table = table_of("one", {"--workers", "1"});
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), kSlides + 1);
+  EXPECT_EQ(table_of("three", {"--workers", "3"}), table);
+  EXPECT_EQ(table_of("shards", {"--shard", "0/2"}), "") << "a shard makes no table";
+  EXPECT_EQ(table_of("shards", {"--shard", "1/2"}), "");
+  EXPECT_EQ(table_of("shards"), table);
+  EXPECT_FALSE(std::filesystem::exists(folder.path("shards/slides.shard-0-of-2.jsonl"))) << "the table has its rows";
+}
+
+TEST_F(StudyCommand, ReportsTheShareOfSuccess) {
+  const ProgramResult result = glissade({"study", study, "--out", folder.path("out")});
+  const nlohmann::json summary = nlohmann::json::parse(read_text_file(folder.path("out/study.json")));
+  EXPECT_EQ(summary["slides"], kSlides);
+  int successes = 0;
+  for (const test_support::CsvRow& row : test_support::rows_of(read_text_file(folder.path("out/slides.csv"))))
+    successes += row.at("success") == "1" ? 1 : 0;
+  EXPECT_EQ(summary["successes"], successes);
+  EXPECT_GT(successes, 0);
+  EXPECT_LT(successes, kSlides);
+  EXPECT_THAT(result.standard_output, HasSubstr(std::to_string(successes) + " of 60 slides succeed"));
+}
+
+TEST_F(StudyCommand, AKilledWorkerChangesNoByte) {
+  const std::string table = table_of("whole");
+  study = write_study("study.yaml", kSlides);
+  std::jthread killer([this] { kill_a_worker("killed"); });
+  EXPECT_EQ(table_of("killed", {"--workers", "2"}), table);
+}
+
+TEST_F(StudyCommand, AStoppedRunGoesOn) {
+  const std::string table = table_of("whole");
+  test_support::Process process({GLISSADE_PROGRAM, "study", study, "--out", folder.path("out"), "--workers", "1"});
+  const std::string journal = folder.path("out/slides.journal.jsonl");
+  while (!std::filesystem::exists(journal) || std::filesystem::file_size(journal) == 0)
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  process.signal(SIGKILL);
+  process.wait();
+  const std::string rows = read_text_file(journal);
+  ASSERT_LT(std::count(rows.begin(), rows.end(), '\n'), kSlides);
+  // The last row may have been cut off.
+  std::ofstream(journal, std::ios::app) << "{\"slide\":59,\"pa";
+  const ProgramResult again = glissade({"study", study, "--out", folder.path("out")});
+  EXPECT_EQ(again.exit_code, 0) << again.standard_error;
+  EXPECT_EQ(read_text_file(folder.path("out/slides.csv")), table);
+}
+
+TEST_F(StudyCommand, AFinishedStudyRunsOnlyWhatIsMissing) {
+  table_of("out");
+  const std::string rows = read_text_file(folder.path("out/slides.jsonl"));
+  study = write_study("more.yaml", kSlides + 5);
+  // A mark that a new run of slide 0 would not have.
+  std::string marked = rows;
+  marked.replace(marked.find("\"success\":"), 11, "\"success\":1");
+  std::ofstream(folder.path("out/slides.jsonl")) << marked;
+  const std::string table = table_of("out");
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), kSlides + 6);
+  EXPECT_EQ(read_text_file(folder.path("out/slides.jsonl")).substr(0, marked.size()), marked);
+}
+
+TEST_F(StudyCommand, RowsOfOtherInputsAreRunAgain) {
+  const std::string before = table_of("out");
+  folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n0.05,0,0,-0.002,1,0,0,0\n");
+  const ProgramResult result = glissade({"study", study, "--out", folder.path("out")});
+  EXPECT_THAT(result.standard_error, HasSubstr("60 rows belong to other inputs"));
+  EXPECT_NE(read_text_file(folder.path("out/slides.csv")), before);
+  EXPECT_EQ(read_text_file(folder.path("out/slides.csv")), table_of("new"));
+}
+
+TEST_F(StudyCommand, ASlideThatTakesTooLongIsAProblem) {
+  folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n3600,0,0,-0.003,1,0,0,0\n");
+  study = write_study("study.yaml", 2);
+  const std::string table = table_of("out", {"--longest-s", "0.5"});
+  const std::vector<test_support::CsvRow> rows = test_support::rows_of(table);
+  ASSERT_EQ(rows.size(), 2U);
+  EXPECT_EQ(rows[0].at("outcome"), "problem");
+  EXPECT_EQ(rows[0].at("problem"), "the slide did not end within 0.5 s");
+}
+
+TEST_F(StudyCommand, OneSlideIsPrintedAsItsRow) {
+  table_of("out");
+  const ProgramResult result = glissade({"study", study, "--slide", "7"});
+  EXPECT_THAT(read_text_file(folder.path("out/slides.jsonl")), HasSubstr(result.standard_output));
+  expect_refused({"study", study, "--slide", "60"}, {"--slide", "0 to 59"});
+}
+
+TEST_F(StudyCommand, WrongUsageIsRefused) {
+  expect_refused({"study", folder.path("none.yaml")}, {"none.yaml"});
+  expect_refused({"study", study, "--shard", "4/4"}, {"--shard", "PART < PARTS"});
+  expect_refused({"study", study, "--shard", "x"}, {"--shard", "'x'"});
+  expect_refused({"study", study, "--out", study}, {"study.yaml"});
+  std::filesystem::create_directories(folder.path("out/slides.journal.jsonl"));
+  expect_refused({"study", study, "--out", folder.path("out")}, {"slides.journal.jsonl"});
+}
+
+TEST_F(StudyCommand, AFullDiskEndsTheStudyAndKeepsItsRows) {
+  const std::string command = " study " + study + " --out " + folder.path("out") + " --quiet";
+  const ProgramResult result =
+      test_support::Process({"sh", "-c", "ulimit -f 8 && exec " GLISSADE_PROGRAM + command}).wait();
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("could not be written completely"));
+  EXPECT_EQ(glissade({"study", study, "--out", folder.path("out")}).exit_code, 0) << "with more space, it goes on";
+  EXPECT_EQ(read_text_file(folder.path("out/slides.csv")), table_of("whole"));
+}
+
+}  // namespace
+}  // namespace glissade::apps
