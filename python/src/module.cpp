@@ -53,6 +53,7 @@ PYBIND11_MODULE(_glissade, module) {
   glissade::python::add_frame(module);
   glissade::python::add_server(module);
   glissade::python::add_recording(module);
+  glissade::python::add_study(module);
   glissade::python::add_view(module);
   refuse_objects_without_init(module);
   pybind11::delattr(module, "__module__");

@@ -18,6 +18,7 @@ void add_relay_glove(pybind11::module_& module);
 void add_frame(pybind11::module_& module);
 void add_server(pybind11::module_& module);
 void add_recording(pybind11::module_& module);
+void add_study(pybind11::module_& module);
 void add_view(pybind11::module_& module);
 
 }  // namespace glissade::python
