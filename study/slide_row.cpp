@@ -109,6 +109,10 @@ std::string json_of(const Study& study, const SlideRow& row) {
   return json_object(study, row).dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
+std::string too_long(double longest_s) {
+  return "the slide did not end within " + files::rounded_text(longest_s) + " s";
+}
+
 std::vector<std::string> columns_of(const Study& study) {
   std::vector<std::string> names;
   const SlideRow row{.values = std::vector<double>(study.parameters.size()), .problem = ""};

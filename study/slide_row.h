@@ -28,6 +28,9 @@ std::uint64_t input_hash(std::uint64_t study_hash, const std::vector<double>& va
 /// The row as a JSON object on one line, without a line break. The keys are the columns of the table, in their order.
 std::string json_of(const Study& study, const SlideRow& row);
 
+/// The problem of a slide that took longer than allowed, as a sentence.
+std::string too_long(double longest_s);
+
 /// The names of the columns.
 std::vector<std::string> columns_of(const Study& study);
 

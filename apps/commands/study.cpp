@@ -13,7 +13,6 @@
 #include <glissade/apps/progress.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/say.h>
-#include <glissade/apps/study/study_files.h>
 #include <glissade/apps/study/study_workers.h>
 #include <glissade/apps/study/worker_process.h>
 #include <glissade/apps/text.h>
@@ -21,6 +20,7 @@
 #include <glissade/study/slide_row.h>
 #include <glissade/study/slide_runner.h>
 #include <glissade/study/study.h>
+#include <glissade/study/study_results.h>
 #include <glissade/study/success_rate.h>
 
 namespace glissade::apps {
@@ -72,7 +72,7 @@ struct StudyOptions {
   bool is_worker = false;
 };
 
-Shard parse_shard(const std::string& text) {
+study::Shard parse_shard(const std::string& text) {
   const std::size_t slash = text.find('/');
   const std::optional<double> part = parse_number(text.substr(0, slash));
   const std::optional<double> parts = slash == std::string::npos ? part : parse_number(text.substr(slash + 1));
@@ -104,7 +104,7 @@ AmountText slides_and_rate(std::int64_t done_before) {
 /// The slides of a shard that have no row yet.
 class MissingSlides {
  public:
-  MissingSlides(const StudyFiles& files, const Shard& shard, std::int64_t slides)
+  MissingSlides(const study::StudyResults& files, const study::Shard& shard, std::int64_t slides)
       : files_(files), step_(shard.parts), slides_(slides), next_(shard.part) {}
 
   std::optional<std::int64_t> operator()() {
@@ -115,7 +115,7 @@ class MissingSlides {
   }
 
  private:
-  const StudyFiles& files_;
+  const study::StudyResults& files_;
   std::int64_t step_;
   std::int64_t slides_;
   std::int64_t next_;
@@ -123,7 +123,7 @@ class MissingSlides {
 
 /// Runs what is missing.
 void run_missing(const StudyOptions& options, const study::Study& study, const study::SlideRunner& runner,
-                 const Shard& shard, StudyFiles& files) {
+                 const study::Shard& shard, study::StudyResults& files) {
   MissingSlides missing(files, shard, study.slides);
   ProgressBar progress("sliding", study.slides, slides_and_rate(files.count()));
   const StudyWork work{.study_file = options.file,
@@ -143,7 +143,7 @@ std::string percent(double share) {
   return fixed_text(100.0 * share, 2) + " %";
 }
 
-void tell(const study::Study& study, const StudyCounts& counts, const std::string& folder) {
+void tell(const study::Study& study, const study::StudyCounts& counts, const std::string& folder) {
   const study::Rate rate = study::success_rate(counts.successes, counts.rows);
   std::cout << counts.successes << " of " << counts.rows << " slides succeed: " << percent(rate.share);
   if (study.sampling != study::Sampling::kGrid)
@@ -168,9 +168,9 @@ int run(StudyOptions options) {
     std::cout << row(*options.slide) << '\n';
     return 0;
   }
-  const Shard shard = parse_shard(options.shard);
+  const study::Shard shard = parse_shard(options.shard);
   const StopSignal stop;
-  StudyFiles files(options.folder, study, runner, shard);
+  study::StudyResults files(options.folder, study, runner, shard);
   if (files.outdated() > 0) {
     warn(options.folder + ": " + std::to_string(files.outdated()) +
          " rows belong to other inputs or another version, and are not used");

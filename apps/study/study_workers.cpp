@@ -65,8 +65,7 @@ class Workers {
       process.reset();
       if (answer.outcome == WorkerProcess::Outcome::kStopped) return std::nullopt;
       if (answer.outcome == WorkerProcess::Outcome::kTooLong) {
-        const double longest_s = std::chrono::duration<double>(work_.longest).count();
-        problem = "the slide did not end within " + rounded_text(longest_s) + " s";
+        problem = study::too_long(std::chrono::duration<double>(work_.longest).count());
         break;
       }
       problem = "the process of the slide was " + answer.reason + ", " + std::to_string(kTrials) + " times";

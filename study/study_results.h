@@ -12,7 +12,7 @@
 #include <glissade/study/slide_runner.h>
 #include <glissade/study/study.h>
 
-namespace glissade::apps {
+namespace glissade::study {
 
 /// The share of a study that one run does: the slides `part`, `part` + `parts`, `part` + 2 `parts` …, from 0.
 struct Shard {
@@ -30,17 +30,17 @@ struct StudyCounts {
 };
 
 /// Not thread-safe. Memory: 16 bytes for each slide.
-class StudyFiles {
+class StudyResults {
  public:
-  /// Creates the folder if necessary, and finds all rows in it that belong to the study. Throws std::invalid_argument,
-  /// naming the file, if the folder cannot be created, if a file in it cannot be read, and if another run writes the
-  /// same journal.
-  StudyFiles(std::filesystem::path folder, const study::Study& study, const study::SlideRunner& runner,
-             const Shard& shard);
-  ~StudyFiles();
-  StudyFiles(const StudyFiles&) = delete;
-  StudyFiles& operator=(const StudyFiles&) = delete;
+  /// `study` and `runner` must outlive this object. Creates the folder if necessary, and finds all rows in it that
+  /// belong to the study. Throws std::invalid_argument, naming the file, if the folder cannot be created, if a file in
+  /// it cannot be read, and if another run writes the same journal.
+  StudyResults(std::filesystem::path folder, const Study& study, const SlideRunner& runner, const Shard& shard);
+  ~StudyResults();
+  StudyResults(const StudyResults&) = delete;
+  StudyResults& operator=(const StudyResults&) = delete;
 
+  std::int64_t slides() const { return study_.slides; }
   bool has(std::int64_t slide) const { return places_[static_cast<std::size_t>(slide)].file >= 0; }
   std::int64_t count() const { return count_; }
   /// Rows in the folder whose inputs differ from those of the study, for example because a mesh has changed since.
@@ -50,8 +50,9 @@ class StudyFiles {
   /// could not be written, for example on a full disk.
   void add(std::int64_t slide, const std::string& json);
 
-  /// Writes slides.csv, slides.jsonl and study.json, if all rows are there, and removes the journals. Each file is
-  /// written under another name and then renamed. Throws std::runtime_error if it could not be written.
+  /// Writes slides.csv, slides.jsonl and study.json, and removes the journals. Each file is written under another name
+  /// and then renamed. Throws std::logic_error if a row is missing, and std::runtime_error if a file could not be
+  /// written.
   StudyCounts finish();
 
  private:
@@ -66,8 +67,8 @@ class StudyFiles {
   void write_summary(const StudyCounts& counts) const;
 
   std::filesystem::path folder_;
-  const study::Study& study_;
-  const study::SlideRunner& runner_;
+  const Study& study_;
+  const SlideRunner& runner_;
   std::vector<Place> places_;
   std::vector<std::filesystem::path> paths_{};
   std::vector<std::ifstream> files_{};
@@ -77,4 +78,4 @@ class StudyFiles {
   std::int64_t outdated_ = 0;
 };
 
-}  // namespace glissade::apps
+}  // namespace glissade::study

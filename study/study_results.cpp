@@ -10,12 +10,12 @@
 #include <sys/file.h>
 #include <unistd.h>
 
-#include <glissade/apps/study/study_files.h>
-#include <glissade/apps/text.h>
+#include <glissade/files/text.h>
 #include <glissade/study/slide_row.h>
+#include <glissade/study/study_results.h>
 #include <glissade/study/success_rate.h>
 
-namespace glissade::apps {
+namespace glissade::study {
 namespace {
 
 constexpr const char* kRows = "slides.jsonl";
@@ -46,8 +46,8 @@ class RenamedFile {
 
 }  // namespace
 
-StudyFiles::StudyFiles(std::filesystem::path folder, const study::Study& study, const study::SlideRunner& runner,
-                       const Shard& shard)
+StudyResults::StudyResults(std::filesystem::path folder, const Study& study, const SlideRunner& runner,
+                           const Shard& shard)
     : folder_(std::move(folder)), study_(study), runner_(runner), places_(static_cast<std::size_t>(study.slides)) {
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
@@ -63,11 +63,11 @@ StudyFiles::StudyFiles(std::filesystem::path folder, const study::Study& study, 
     find_rows(path);
 }
 
-StudyFiles::~StudyFiles() {
+StudyResults::~StudyResults() {
   close(journal_);
 }
 
-void StudyFiles::open_journal(const Shard& shard) {
+void StudyResults::open_journal(const Shard& shard) {
   journal_path_ = folder_ / journal_name(shard);
   journal_ = open(journal_path_.c_str(), O_RDWR | O_APPEND | O_CREAT | O_CLOEXEC, 0666);
   if (journal_ < 0) {
@@ -83,7 +83,7 @@ void StudyFiles::open_journal(const Shard& shard) {
 }
 
 /// A last line without its end was cut off by the end of its run. In the own journal, it is removed.
-void StudyFiles::find_rows(const std::filesystem::path& path) {
+void StudyResults::find_rows(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path.string() + ": cannot be read");
   const auto number = static_cast<std::int32_t>(files_.size());
@@ -92,8 +92,10 @@ void StudyFiles::find_rows(const std::filesystem::path& path) {
   while (std::getline(file, line) && !file.eof()) {
     const nlohmann::json row = nlohmann::json::parse(line, nullptr, false);
     const std::int64_t slide = row.is_object() ? row.value("slide", std::int64_t{-1}) : -1;
-    if (slide < 0) throw std::invalid_argument(path.string() + ": has a line that is no row: " + in_quotes(line));
-    const bool belongs = slide < study_.slides && row.value("input_hash", "") == hexadecimal(runner_.hash(slide));
+    if (slide < 0)
+      throw std::invalid_argument(path.string() + ": has a line that is no row: " + files::in_quotes(line));
+    const bool belongs =
+        slide < study_.slides && row.value("input_hash", "") == files::hexadecimal(runner_.hash(slide));
     outdated_ += belongs ? 0 : 1;
     if (belongs && !has(slide)) {
       places_[static_cast<std::size_t>(slide)] = {number, offset};
@@ -107,7 +109,7 @@ void StudyFiles::find_rows(const std::filesystem::path& path) {
   files_.emplace_back(path, std::ios::binary);
 }
 
-void StudyFiles::add(std::int64_t slide, const std::string& json) {
+void StudyResults::add(std::int64_t slide, const std::string& json) {
   const std::string line = json + '\n';
   const off_t offset = lseek(journal_, 0, SEEK_END);
   if (write(journal_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) {
@@ -119,7 +121,7 @@ void StudyFiles::add(std::int64_t slide, const std::string& json) {
   ++count_;
 }
 
-std::string StudyFiles::row(std::int64_t slide) {
+std::string StudyResults::row(std::int64_t slide) {
   const Place& place = places_[static_cast<std::size_t>(slide)];
   std::ifstream& file = files_[static_cast<std::size_t>(place.file)];
   file.clear();
@@ -129,10 +131,12 @@ std::string StudyFiles::row(std::int64_t slide) {
   return line;
 }
 
-StudyCounts StudyFiles::finish() {
+StudyCounts StudyResults::finish() {
+  if (count_ != study_.slides)
+    throw std::logic_error(folder_.string() + ": " + std::to_string(study_.slides - count_) + " rows are missing");
   RenamedFile csv(folder_ / "slides.csv");
   RenamedFile rows(folder_ / kRows);
-  csv.line(joined(study::columns_of(study_), ","));
+  csv.line(files::joined(columns_of(study_), ","));
   StudyCounts counts;
   for (std::int64_t slide = 0; slide < study_.slides; ++slide) {
     const std::string json = row(slide);
@@ -140,7 +144,7 @@ StudyCounts StudyFiles::finish() {
     ++counts.rows;
     counts.successes += values.at("success").get<int>();
     counts.problems += values.at("problem").is_null() ? 0 : 1;
-    csv.line(study::csv_of(json));
+    csv.line(csv_of(json));
     rows.line(json);
   }
   csv.finish();
@@ -152,8 +156,8 @@ StudyCounts StudyFiles::finish() {
   return counts;
 }
 
-void StudyFiles::write_summary(const StudyCounts& counts) const {
-  const study::Rate rate = study::success_rate(counts.successes, counts.rows);
+void StudyResults::write_summary(const StudyCounts& counts) const {
+  const Rate rate = success_rate(counts.successes, counts.rows);
   nlohmann::ordered_json json;
   json["study"] = study_.source;
   json["slides"] = counts.rows;
@@ -166,4 +170,4 @@ void StudyFiles::write_summary(const StudyCounts& counts) const {
   file.finish();
 }
 
-}  // namespace glissade::apps
+}  // namespace glissade::study

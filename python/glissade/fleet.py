@@ -1,0 +1,184 @@
+"""Runs an assembly study on a Dask cluster: python3 -m glissade.fleet STUDY [--scheduler ADDRESS].
+
+Needs Debian's python3-distributed. The controller keeps the folder of results, and gives batches of slides to the workers.
+Each worker reads the study once, by the same path as the controller. Rows depend on their number only, so the tables are
+those of `glissade study`, to the byte, whatever is lost on the way.
+"""
+
+from __future__ import annotations
+
+import argparse
+import collections
+import functools
+import json
+import pathlib
+import socket
+import sys
+import time
+
+import distributed
+from distributed.scheduler import KilledWorker
+
+import glissade
+
+BATCH_S = 2.0  # a batch takes so long: the scheduler's millisecond for each is then a two-thousandth
+BATCHES_AHEAD = 3  # of a worker, so that it never waits for the controller
+LONGEST_BATCH = 10_000
+LOST_S = 60.0  # a scheduler that comes back within this time is waited for
+
+
+@functools.lru_cache(maxsize=4)
+def _study(path: str, fingerprint: int) -> glissade.Study:
+    """The study of this process. Threads of a worker may read it twice at the start."""
+    try:
+        study = glissade.Study(path)
+    except ValueError as error:
+        raise ValueError(f"a worker on {socket.gethostname()}: {error}") from error
+    if study.input_hash(0) != fingerprint:
+        raise ValueError(
+            f"a worker on {socket.gethostname()}: {path}: the files or the version of Glissade differ from those of "
+            "the controller"
+        )
+    return study
+
+
+def run_batch(path: str, fingerprint: int, slides: list[int], longest_s: float) -> tuple[list[str], float]:
+    """The rows of some slides, and the time that they took in seconds. Runs on a worker."""
+    study = _study(path, fingerprint)
+    start = time.monotonic()
+    return [study.run(slide, longest_s) for slide in slides], time.monotonic() - start
+
+
+class Fleet:
+    """The controller of a study: what is to do, what runs, and what has come back."""
+
+    def __init__(self, path: pathlib.Path, folder: pathlib.Path, longest_s: float = 600.0) -> None:
+        self.path = str(path.resolve())
+        self.study = glissade.Study(path)
+        self.results = glissade.StudyResults(folder, self.study)
+        self.fingerprint = self.study.input_hash(0)
+        self.longest_s = longest_s
+        self.next_slide = 0
+        self.again: collections.deque[list[int]] = collections.deque()  # batches that failed, in smaller pieces
+        self.running: dict[distributed.Future, list[int]] = {}
+        self.cost_s = BATCH_S  # of a slide; the first batches have one slide
+
+    def run(self, connect, report=lambda fleet: None) -> dict[str, int]:
+        """Runs all slides that have no row yet, and writes the tables. `connect` gives a client. If the scheduler is
+        lost, it is called again."""
+        lost_since = None
+        while len(self.results) < len(self.study):
+            try:
+                with connect() as client:
+                    lost_since = None
+                    self._run_with(client, report)
+            except (OSError, distributed.CancelledError, distributed.core.CommClosedError) as error:
+                lost_since = lost_since or time.monotonic()
+                if time.monotonic() - lost_since > LOST_S:
+                    raise ConnectionError(f"the scheduler is lost: {error}") from error
+                time.sleep(1.0)
+            finally:
+                self.running.clear()
+                self.again.clear()
+                self.next_slide = 0
+        return self.results.finish()
+
+    def _run_with(self, client: distributed.Client, report) -> None:
+        finished = distributed.as_completed()
+        self._submit(client, finished)
+        while self.running:
+            future = next(finished)
+            slides = self.running.pop(future)
+            if future.status == "finished":
+                self._take(slides, *future.result())
+            elif future.status == "error":
+                self._retry(slides, future.exception())
+            else:
+                raise distributed.CancelledError(future.key)
+            report(self)
+            self._submit(client, finished)
+
+    def _submit(self, client: distributed.Client, finished: distributed.as_completed) -> None:
+        wanted = BATCHES_AHEAD * max(1, sum(client.nthreads().values()))
+        while len(self.running) < wanted:
+            slides = self._next_batch()
+            if not slides:
+                return
+            # The same batch may be tried again, so results are not shared by the names of tasks.
+            future = client.submit(run_batch, self.path, self.fingerprint, slides, self.longest_s, pure=False)
+            self.running[future] = slides
+            finished.add(future)
+
+    def _next_batch(self) -> list[int]:
+        if self.again:
+            return self.again.popleft()
+        count = max(1, min(LONGEST_BATCH, int(BATCH_S / self.cost_s)))
+        slides = self.results.missing(self.next_slide, count)
+        if slides:
+            self.next_slide = slides[-1] + 1
+        return slides
+
+    def _take(self, slides: list[int], rows: list[str], seconds: float) -> None:
+        self.cost_s = 0.8 * self.cost_s + 0.2 * max(seconds / len(slides), 1e-6)
+        for slide, row in zip(slides, rows):
+            self.results.add(slide, row)
+
+    def _retry(self, slides: list[int], error: BaseException) -> None:
+        """A batch whose worker died is tried slide by slide. A slide that kills its worker again has a problem."""
+        if not isinstance(error, KilledWorker):
+            raise error
+        if len(slides) > 1:
+            self.again.extend([slide] for slide in slides)
+            return
+        self.results.add(slides[0], self.study.problem_row(slides[0], "the slide killed its worker several times"))
+
+
+def _connector(scheduler: str | None, workers: int | None):
+    if scheduler:
+        return lambda: distributed.Client(scheduler, timeout="10s")
+    cluster = distributed.LocalCluster(n_workers=workers, threads_per_worker=1, dashboard_address=None)
+    return lambda: distributed.Client(cluster)
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python3 -m glissade.fleet", description=__doc__.split("\n\n")[0])
+    parser.add_argument("study", type=pathlib.Path, help="study file; docs/studies.md has its keys")
+    parser.add_argument("--out", type=pathlib.Path, help="folder for the results, as of 'glissade study'")
+    parser.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://host:8786; default: "
+                        "a cluster on this machine")  # fmt: skip
+    parser.add_argument("--workers", type=int, help="processes on this machine; default: one per processor")
+    parser.add_argument("--longest-s", type=float, default=600.0, help="a slide that takes more seconds is given up")
+    parser.add_argument("--quiet", action="store_true", help="show no progress")
+    return parser.parse_args()
+
+
+def main() -> int:
+    arguments = _arguments()
+    folder = arguments.out or arguments.study.with_name(arguments.study.stem + "_results")
+    try:
+        fleet = Fleet(arguments.study, folder, arguments.longest_s)
+    except ValueError as error:
+        print(f"glissade: {error}", file=sys.stderr)
+        return 2
+    start, before = time.monotonic(), len(fleet.results)
+
+    def report(fleet: Fleet) -> None:
+        rate = (len(fleet.results) - before) / (time.monotonic() - start)
+        print(f"\r{len(fleet.results)} of {len(fleet.study)} slides, {rate:.3g} per second ", end="", file=sys.stderr)
+
+    connect = _connector(arguments.scheduler, arguments.workers)
+    try:
+        counts = fleet.run(connect, (lambda fleet: None) if arguments.quiet else report)
+    except (OSError, RuntimeError, ValueError) as error:
+        print(f"\nglissade: {error}. The same command goes on.", file=sys.stderr)
+        return 1
+    rate = json.loads((folder / "study.json").read_text())["success_rate_95_percent"]
+    print(file=sys.stderr)
+    print(f"{counts['successes']} of {counts['slides']} slides succeed "
+          f"(95 % interval: {100 * rate[0]:.2f} % to {100 * rate[1]:.2f} %)")  # fmt: skip
+    print(f"results: {folder / 'slides.csv'}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
