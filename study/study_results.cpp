@@ -13,7 +13,8 @@
 #include <glissade/files/text.h>
 #include <glissade/study/slide_row.h>
 #include <glissade/study/study_results.h>
-#include <glissade/study/success_rate.h>
+
+#include "summary/study_summary.h"
 
 namespace glissade::study {
 namespace {
@@ -137,37 +138,22 @@ StudyCounts StudyResults::finish() {
   RenamedFile csv(folder_ / "slides.csv");
   RenamedFile rows(folder_ / kRows);
   csv.line(files::joined(columns_of(study_), ","));
-  StudyCounts counts;
+  StudySummary summary(study_);
   for (std::int64_t slide = 0; slide < study_.slides; ++slide) {
     const std::string json = row(slide);
-    const nlohmann::json values = nlohmann::json::parse(json);
-    ++counts.rows;
-    counts.successes += values.at("success").get<int>();
-    counts.problems += values.at("problem").is_null() ? 0 : 1;
+    summary.add(nlohmann::json::parse(json));
     csv.line(csv_of(json));
     rows.line(json);
   }
   csv.finish();
   rows.finish();
-  write_summary(counts);
+  RenamedFile numbers(folder_ / "study.json");
+  numbers.line(summary.to_json().dump(2));
+  numbers.finish();
   for (const std::filesystem::path& path : paths_) {
     if (path.filename() != kRows) std::filesystem::remove(path);
   }
-  return counts;
-}
-
-void StudyResults::write_summary(const StudyCounts& counts) const {
-  const Rate rate = success_rate(counts.successes, counts.rows);
-  nlohmann::ordered_json json;
-  json["study"] = study_.source;
-  json["slides"] = counts.rows;
-  json["successes"] = counts.successes;
-  json["problems"] = counts.problems;
-  json["success_rate"] = rate.share;
-  json["success_rate_95_percent"] = {rate.least, rate.greatest};
-  RenamedFile file(folder_ / "study.json");
-  file.line(json.dump(2));
-  file.finish();
+  return {summary.rows(), summary.successes(), summary.problems()};
 }
 
 }  // namespace glissade::study

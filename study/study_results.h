@@ -64,7 +64,6 @@ class StudyResults {
   void find_rows(const std::filesystem::path& file);
   void open_journal(const Shard& shard);
   std::string row(std::int64_t slide);
-  void write_summary(const StudyCounts& counts) const;
 
   std::filesystem::path folder_;
   const Study& study_;

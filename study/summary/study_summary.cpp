@@ -1,0 +1,170 @@
+#include "summary/study_summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <tuple>
+
+#include <glissade/files/text.h>
+#include <glissade/geometry/triangle_mesh.h>
+#include <glissade/study/success_rate.h>
+
+namespace glissade::study {
+namespace {
+
+constexpr std::size_t kBins = 5;
+constexpr std::size_t kMostWorst = 10;
+constexpr std::size_t kMostJams = 20;
+constexpr double kJamsOfPart = 0.05;  // jams nearer than this share of the part's size are one
+
+double size_of_part(const Study& study) {
+  return geometry::bounds_of(*study.scene.find(study.part).mesh).diagonal().norm();
+}
+
+}  // namespace
+
+StudySummary::StudySummary(const Study& study)
+    : study_(study),
+      jam_distance_m_(kJamsOfPart * size_of_part(study)),
+      values_(study.parameters.size()),
+      names_(study.parameters.size()) {}
+
+void StudySummary::add(const nlohmann::json& row) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  for (std::size_t p = 0; p < values_.size(); ++p) {
+    const nlohmann::json& value = row.at(study_.parameters[p].name);
+    if (value.is_number()) {
+      values_[p].push_back(value.get<double>());
+    } else {
+      const auto next = static_cast<double>(names_[p].size());
+      values_[p].push_back(names_[p].try_emplace(value.get<std::string>(), next).first->second);
+    }
+  }
+  success_.push_back(row.at("success").get<int>() == 1);
+  ++outcomes_[row.at("outcome").get<std::string>()];
+  problems_ += row.at("problem").is_null() ? 0 : 1;
+  const bool has_force = row.contains("force_max_N") && row["force_max_N"].is_number();
+  forces_.push_back(has_force ? row["force_max_N"].get<double>() : unknown);
+  if (!row.contains("jam_objects") || row["jam_objects"].is_null()) return;
+  jams_.push_back({{row["jam_x_m"].get<double>(), row["jam_y_m"].get<double>(), row["jam_z_m"].get<double>()},
+                   row["jam_objects"].get<std::string>()});
+}
+
+std::int64_t StudySummary::successes() const {
+  return std::count(success_.begin(), success_.end(), true);
+}
+
+/// Each text or number of a list is a bin. Other values are divided into bins of as many slides.
+std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
+  const std::vector<double>& values = values_[parameter];
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  const bool is_list = study_.parameters[parameter].distribution.as_one_of() != nullptr;
+  std::vector<Bin> bins;
+  std::size_t begin = 0;
+  while (begin < order.size()) {
+    std::size_t end = std::max(begin + 1, (bins.size() + 1) * order.size() / kBins);
+    if (is_list) end = begin + 1;
+    // Equal values are in one bin.
+    while (end < order.size() && values[order[end]] == values[order[end - 1]])
+      ++end;
+    Bin& bin = bins.emplace_back();
+    bin.values = files::format_number(values[order[begin]]);
+    if (!is_list) bin.values += " to " + files::format_number(values[order[end - 1]]);
+    for (const auto& [name, number] : names_[parameter]) {
+      if (number == values[order[begin]]) bin.values = name;
+    }
+    for (; begin < end; ++begin) {
+      ++bin.slides;
+      bin.successes += success_[order[begin]] ? 1 : 0;
+    }
+  }
+  return bins;
+}
+
+/// The share of the variance of success that the bins of the parameter explain: the first-order index of Sobol (1993),
+/// estimated by bins. Without effect, it is about (bins − 1) / slides.
+nlohmann::ordered_json StudySummary::sensitivity(std::size_t parameter) const {
+  const double mean = static_cast<double>(successes()) / static_cast<double>(rows());
+  double explained = 0.0;
+  nlohmann::ordered_json json;
+  json["name"] = study_.parameters[parameter].name;
+  json["share_of_variance"] = 0.0;
+  json["bins"] = nlohmann::ordered_json::array();
+  for (const Bin& bin : bins(parameter)) {
+    const double rate = static_cast<double>(bin.successes) / static_cast<double>(bin.slides);
+    explained += static_cast<double>(bin.slides) / static_cast<double>(rows()) * (rate - mean) * (rate - mean);
+    json["bins"].push_back({{"values", bin.values}, {"slides", bin.slides}, {"success_rate", rate}});
+  }
+  if (mean > 0.0 && mean < 1.0) json["share_of_variance"] = explained / (mean * (1.0 - mean));
+  return json;
+}
+
+/// Jams at the same objects, each within a distance of the first one of its group, by number.
+nlohmann::ordered_json StudySummary::jams() const {
+  struct Group {
+    Jam first;
+    Eigen::Vector3d sum;
+    std::int64_t count;
+  };
+  std::vector<Group> groups;
+  for (const Jam& jam : jams_) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& known) {
+      return known.first.objects == jam.objects && (known.first.p_W - jam.p_W).norm() <= jam_distance_m_;
+    });
+    if (group == groups.end()) {
+      groups.push_back({jam, jam.p_W, 1});
+    } else {
+      group->sum += jam.p_W;
+      ++group->count;
+    }
+  }
+  std::stable_sort(groups.begin(), groups.end(), [](const Group& a, const Group& b) { return a.count > b.count; });
+  if (groups.size() > kMostJams) groups.resize(kMostJams);
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const Group& group : groups) {
+    const Eigen::Vector3d mean = group.sum / static_cast<double>(group.count);
+    json.push_back(
+        {{"objects", group.first.objects}, {"slides", group.count}, {"mean_m", {mean.x(), mean.y(), mean.z()}}});
+  }
+  return json;
+}
+
+std::vector<std::int64_t> StudySummary::worst() const {
+  std::vector<std::int64_t> slides;
+  for (std::int64_t slide = 0; slide < rows(); ++slide) {
+    if (!std::isnan(forces_[static_cast<std::size_t>(slide)])) slides.push_back(slide);
+  }
+  const auto force = [&](std::int64_t slide) { return forces_[static_cast<std::size_t>(slide)]; };
+  const std::size_t count = std::min(kMostWorst, slides.size());
+  std::partial_sort(slides.begin(), slides.begin() + static_cast<std::ptrdiff_t>(count), slides.end(),
+                    [&](std::int64_t a, std::int64_t b) { return std::pair(-force(a), a) < std::pair(-force(b), b); });
+  slides.resize(count);
+  return slides;
+}
+
+nlohmann::ordered_json StudySummary::to_json() const {
+  const Rate rate = success_rate(successes(), rows());
+  nlohmann::ordered_json json;
+  json["study"] = study_.source;
+  json["slides"] = rows();
+  json["successes"] = successes();
+  json["problems"] = problems_;
+  json["success_rate"] = rate.share;
+  json["success_rate_95_percent"] = {rate.least, rate.greatest};
+  json["outcomes"] = outcomes_;
+  std::vector<nlohmann::ordered_json> sensitivities;
+  for (std::size_t p = 0; p < values_.size(); ++p)
+    sensitivities.push_back(sensitivity(p));
+  std::stable_sort(sensitivities.begin(), sensitivities.end(), [](const auto& a, const auto& b) {
+    return a.at("share_of_variance").template get<double>() > b.at("share_of_variance").template get<double>();
+  });
+  json["parameters"] = sensitivities;
+  json["jams"] = jams();
+  json["greatest_forces"] = worst();
+  return json;
+}
+
+}  // namespace glissade::study

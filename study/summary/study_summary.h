@@ -1,0 +1,60 @@
+#pragma once
+
+/// What the rows of a study say together: on what success depends, where parts jam, and which slides are worst.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include <glissade/study/study.h>
+
+namespace glissade::study {
+
+/// Memory: some 100 bytes for each slide.
+class StudySummary {
+ public:
+  explicit StudySummary(const Study& study);
+
+  /// Adds a row, as `json_of` made it.
+  void add(const nlohmann::json& row);
+
+  std::int64_t rows() const { return static_cast<std::int64_t>(success_.size()); }
+  std::int64_t successes() const;
+  std::int64_t problems() const { return problems_; }
+
+  /// The numbers of study.json, see docs/studies.md.
+  nlohmann::ordered_json to_json() const;
+
+ private:
+  /// Slides whose values of a parameter are equal or next to each other.
+  struct Bin {
+    std::string values{};
+    std::int64_t slides = 0;
+    std::int64_t successes = 0;
+  };
+  struct Jam {
+    Eigen::Vector3d p_W;
+    std::string objects;
+  };
+
+  std::vector<Bin> bins(std::size_t parameter) const;
+  nlohmann::ordered_json sensitivity(std::size_t parameter) const;
+  nlohmann::ordered_json jams() const;
+  std::vector<std::int64_t> worst() const;
+
+  const Study& study_;
+  double jam_distance_m_ = 0.0;
+  std::vector<std::vector<double>> values_{};           // by parameter, then by row
+  std::vector<std::map<std::string, double>> names_{};  // by parameter: numbers of values that are texts
+  std::vector<bool> success_{};
+  std::vector<double> forces_{};  // not a number if unknown
+  std::map<std::string, std::int64_t> outcomes_{};
+  std::vector<Jam> jams_{};
+  std::int64_t problems_ = 0;
+};
+
+}  // namespace glissade::study

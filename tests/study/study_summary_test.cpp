@@ -1,0 +1,114 @@
+/// What rows say together, of rows that are made up.
+
+#include "summary/study_summary.h"
+
+#include <string>
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "study_folder.h"
+
+namespace glissade::study {
+namespace {
+
+using nlohmann::json;
+
+class Summary : public testing::Test {
+ protected:
+  static json row(double x, const std::string& metaphor, bool success) {
+    return {{"path.x_m", x},
+            {"metaphor", metaphor},
+            {"success", success ? 1 : 0},
+            {"outcome", success ? "success" : "jammed"},
+            {"problem", nullptr},
+            {"force_max_N", 1.0}};
+  }
+  static json jam(double x, double y, const std::string& objects) {
+    json jammed = row(0.0, "incremental", false);
+    jammed.update({{"jam_objects", objects}, {"jam_x_m", x}, {"jam_y_m", y}, {"jam_z_m", 0.0}});
+    return jammed;
+  }
+
+  const StudyFolder folder;
+  const Study study = folder.read(
+      "parameters:\n"
+      "  - {vary: path.x_m, uniform: [0, 1]}\n"
+      "  - {vary: metaphor, one_of: [incremental, rubber-band]}\n"
+      "slides: 100\n");
+  StudySummary summary{study};
+};
+
+/// Success is x < 0.4, whatever the metaphor.
+TEST_F(Summary, TheParameterThatDecidesComesFirst) {
+  for (int i = 0; i < 100; ++i)
+    summary.add(row(0.01 * i, i % 2 == 0 ? "incremental" : "rubber-band", i < 40));
+  const auto parameters = summary.to_json()["parameters"];
+  EXPECT_EQ(parameters[0]["name"], "path.x_m");
+  EXPECT_DOUBLE_EQ(parameters[0]["share_of_variance"], 1.0);
+  EXPECT_EQ(parameters[0]["bins"].size(), 5U);
+  EXPECT_EQ(parameters[0]["bins"][1]["success_rate"], 1.0);
+  EXPECT_EQ(parameters[0]["bins"][2]["success_rate"], 0.0);
+  EXPECT_EQ(parameters[0]["bins"][2]["values"], "0.4 to 0.59");
+  EXPECT_EQ(parameters[1]["name"], "metaphor");
+  EXPECT_NEAR(parameters[1]["share_of_variance"], 0.0, 1e-12);
+  EXPECT_EQ(parameters[1]["bins"][0]["values"], "incremental");
+  EXPECT_EQ(parameters[1]["bins"][1]["slides"], 50);
+}
+
+TEST_F(Summary, EqualValuesAreInOneBin) {
+  for (int i = 0; i < 100; ++i)
+    summary.add(row(i < 90 ? 0.0 : 1.0, "incremental", i < 90));
+  const auto parameters = summary.to_json()["parameters"];
+  ASSERT_EQ(parameters[0]["bins"].size(), 2U);
+  EXPECT_EQ(parameters[0]["bins"][0]["slides"], 90);
+  EXPECT_EQ(parameters[0]["bins"][1]["success_rate"], 0.0);
+}
+
+TEST_F(Summary, WithoutFailureNothingIsExplained) {
+  summary.add(row(0.0, "incremental", true));
+  summary.add(row(1.0, "incremental", true));
+  EXPECT_EQ(summary.to_json()["parameters"][0]["share_of_variance"], 0.0);
+  EXPECT_EQ(summary.to_json()["success_rate"], 1.0);
+}
+
+TEST_F(Summary, JamsAtOnePlaceAreCountedTogether) {
+  for (int i = 0; i < 5; ++i)
+    summary.add(jam(0.001 * i, 0.0, "left"));
+  summary.add(jam(0.0, 0.0, "left, front"));
+  summary.add(jam(0.0, 0.05, "left"));
+  const auto jams = summary.to_json()["jams"];
+  ASSERT_EQ(jams.size(), 3U) << "the peg is 0.2 m long, so places are 10 mm wide";
+  EXPECT_EQ(jams[0]["objects"], "left");
+  EXPECT_EQ(jams[0]["slides"], 5);
+  EXPECT_NEAR(jams[0]["mean_m"][0], 0.002, 1e-12);
+}
+
+TEST_F(Summary, TheGreatestForcesComeFirst) {
+  for (int i = 0; i < 15; ++i) {
+    json one = row(0.0, "incremental", true);
+    one["force_max_N"] = i == 3 ? json() : json(i % 7);
+    summary.add(one);
+  }
+  const auto worst = summary.to_json()["greatest_forces"];
+  ASSERT_EQ(worst.size(), 10U);
+  EXPECT_EQ(worst[0], 6);
+  EXPECT_EQ(worst[1], 13);
+  EXPECT_EQ(worst[2], 5);
+}
+
+TEST_F(Summary, CountsOutcomesAndProblems) {
+  json problem = row(0.0, "incremental", false);
+  problem["outcome"] = "problem";
+  problem["problem"] = "it starts in a wall";
+  summary.add(problem);
+  summary.add(row(0.0, "incremental", true));
+  const auto numbers = summary.to_json();
+  EXPECT_EQ(numbers["problems"], 1);
+  EXPECT_EQ(numbers["outcomes"]["problem"], 1);
+  EXPECT_EQ(numbers["outcomes"]["success"], 1);
+  EXPECT_EQ(summary.successes(), 1);
+}
+
+}  // namespace
+}  // namespace glissade::study
