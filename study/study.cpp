@@ -56,8 +56,18 @@ void add_rules(files::Hash& hash, const Study& study) {
 std::uint64_t hash_of(const Study& study, std::span<const simulation::SceneBodies> bodies) {
   files::Hash hash;
   add(hash, GLISSADE_VERSION);
-  for (const simulation::SceneBodies& of_scene : bodies)
+  for (const simulation::SceneBodies& of_scene : bodies) {
     hash.add(simulation::hash_of(of_scene));
+    for (const std::string& name : of_scene.body_names)
+      add(hash, name);
+  }
+  for (const simulation::SceneObject& object : study.scene.objects) {
+    add(hash, object.mesh.origin().shape);
+    for (const auto& [name, value] : object.mesh.origin().parameters) {
+      add(hash, name);
+      hash.add(value);
+    }
+  }
   if (study.scene.X_WGoal) hash.add(*study.scene.X_WGoal);
   add(hash, study.part);
   for (const geometry::PoseTrajectory& trajectory : study.trajectories_X_WG)

@@ -111,6 +111,11 @@ void StudyResults::find_rows(const std::filesystem::path& path) {
 }
 
 void StudyResults::add(std::int64_t slide, const std::string& json) {
+  if (!json.ends_with("\"" + files::hexadecimal(runner_.hash(slide)) + "\"}")) {
+    throw std::runtime_error("slide " + std::to_string(slide) +
+                             ": its row belongs to other inputs: have the files of " + study_.source +
+                             " changed during the run?");
+  }
   const std::string line = json + '\n';
   const off_t offset = lseek(journal_, 0, SEEK_END);
   if (write(journal_, line.data(), line.size()) != static_cast<ssize_t>(line.size())) {

@@ -46,7 +46,8 @@ class StudyResults {
   /// Rows in the folder whose inputs differ from those of the study, for example because a mesh has changed since.
   std::int64_t outdated() const { return outdated_; }
 
-  /// Appends a row to the journal; it is on its way to the disk when the call returns. Throws std::runtime_error if it
+  /// Appends a row to the journal; it is on its way to the disk when the call returns. Throws std::runtime_error if the
+  /// row belongs to other inputs, for example because a worker has read files that have changed since, and if the row
   /// could not be written, for example on a full disk.
   void add(std::int64_t slide, const std::string& json);
 

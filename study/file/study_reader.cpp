@@ -12,6 +12,7 @@
 #include <glissade/files/text.h>
 #include <glissade/files/text_file.h>
 #include <glissade/files/yaml_reader.h>
+#include <glissade/study/slide_row.h>
 #include <glissade/study/study.h>
 
 #include "file/study_keys.h"
@@ -111,12 +112,17 @@ class StudyReader {
   }
 
   void read_parameters(const YAML::Node& root) {
+    Study bare;
+    bare.records.fill(true);
+    const std::vector<std::string> columns = columns_of(bare);
     std::set<std::string> names;
     std::set<std::string> varied;
     for (const YAML::Node& node : root["parameters"]) {
       study_.parameters.push_back(read_parameter(node, varied));
       const std::string& name = study_.parameters.back().name;
       if (!names.insert(name).second) yaml_.fail(node, "name: another parameter is called " + in_quotes(name));
+      if (std::find(columns.begin(), columns.end(), name) != columns.end())
+        yaml_.fail(node, "name: " + in_quotes(name) + " is the name of another column of the table");
       if (name.find_first_of(",\"\n\r") != std::string::npos)
         yaml_.fail(node, "name: must not contain a comma, a quote or a line break");
     }

@@ -136,6 +136,20 @@ TEST_F(StudyCommand, RowsOfOtherInputsAreRunAgain) {
   EXPECT_EQ(read_text_file(folder.path("out/slides.csv")), table_of("new"));
 }
 
+/// Each worker reads the files of the study again.
+TEST_F(StudyCommand, AStudyThatChangesDuringTheRunIsTold) {
+  std::jthread changer([this] {
+    const std::string journal = folder.path("out/slides.journal.jsonl");
+    while (!std::filesystem::exists(journal) || std::filesystem::file_size(journal) == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n0.05,0,0,-0.002,1,0,0,0\n");
+    kill_a_worker("out");
+  });
+  const ProgramResult result = glissade({"study", study, "--out", folder.path("out"), "--quiet", "--workers", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("changed during the run"));
+}
+
 TEST_F(StudyCommand, ASlideThatTakesTooLongIsAProblem) {
   folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n3600,0,0,-0.003,1,0,0,0\n");
   study = write_study("study.yaml", 2);
