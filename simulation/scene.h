@@ -184,8 +184,7 @@ struct GLISSADE_EXPORT SceneBodies {
 GLISSADE_EXPORT SceneBodies bodies_of(const Scene& scene, const std::vector<std::string>& part_names,
                                       std::span<const SceneBodies> known = {});
 
-/// A hash of all that a simulation takes from a scene: meshes, poses, margins, compliance points and scripts. A script
-/// counts by a thousand of its poses.
+/// A hash of all that a simulation takes from a scene: meshes, poses, margins, compliance points and scripts.
 GLISSADE_EXPORT std::uint64_t hash_of(const SceneBodies& bodies);
 
 /// All parts of a simulation: first the parts that hands can hold, then the objects that move on their own. For the

@@ -13,6 +13,9 @@
 
 namespace glissade::study {
 
+/// The outcome of a slide that was given up because of the machine: it took too long, or its process crashed.
+inline constexpr const char* kNotRun = "not run";
+
 struct SlideRow {
   std::int64_t slide = 0;  ///< number, from 0
   std::vector<double> values{};

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include <glissade/study/slide_runner.h>
@@ -70,15 +71,16 @@ SlideRow SlideRunner::run(std::int64_t number, const SlideWatch& watch) const {
   row.input_hash = input_hash(study_hash_, row.values);
   try {
     row.measures = slide(row.values, watch);
+    row.outcome = outcome_of(row.measures);
   } catch (const std::invalid_argument& error) {
-    return problem_row(number, error.what());
+    row.outcome = "problem";
+    row.problem = error.what();
   }
-  row.outcome = outcome_of(row.measures);
   return row;
 }
 
-SlideRow SlideRunner::problem_row(std::int64_t number, const std::string& problem) const {
-  SlideRow row{.slide = number, .values = sampler_.values(number), .outcome = "problem", .problem = problem};
+SlideRow SlideRunner::not_run(std::int64_t number, const std::string& problem) const {
+  SlideRow row{.slide = number, .values = sampler_.values(number), .outcome = kNotRun, .problem = problem};
   row.input_hash = input_hash(study_hash_, row.values);
   return row;
 }
@@ -99,7 +101,10 @@ SlideMeasures SlideRunner::slide(const std::vector<double>& values, const SlideW
     meter.note(time, result, sliding.scripted_X_WB());
     if (watch) watch(time, sliding);
   }
-  return meter.finish();
+  const SlideMeasures measures = meter.finish();
+  if (!std::isfinite(measures.force_max_N + measures.torque_max_Nm + measures.work_J))
+    throw std::invalid_argument("the forces exceed the range of numbers");
+  return measures;
 }
 
 std::string SlideRunner::outcome_of(const SlideMeasures& measures) const {

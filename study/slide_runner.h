@@ -30,7 +30,7 @@ class SlideRunner {
   SlideRow run(std::int64_t number, const SlideWatch& watch = {}) const;
 
   /// The row of a slide that could not be run, for example because its process crashed.
-  SlideRow problem_row(std::int64_t number, const std::string& problem) const;
+  SlideRow not_run(std::int64_t number, const std::string& problem) const;
 
   /// `SlideRow::input_hash` of the slide.
   std::uint64_t hash(std::int64_t number) const { return input_hash(study_hash_, sampler_.values(number)); }

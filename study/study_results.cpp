@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cerrno>
+#include <regex>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -8,6 +9,7 @@
 #include <fcntl.h>
 #include <nlohmann/json.hpp>
 #include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <glissade/files/text.h>
@@ -21,9 +23,32 @@ namespace {
 
 constexpr const char* kRows = "slides.jsonl";
 
+constexpr const char* kJournal = "slides.journal.jsonl";
+
 std::string journal_name(const Shard& shard) {
-  if (shard.is_all()) return "slides.journal.jsonl";
+  if (shard.is_all()) return kJournal;
   return "slides.shard-" + std::to_string(shard.part) + "-of-" + std::to_string(shard.parts) + ".jsonl";
+}
+
+/// Whether a file has rows of a study. Other files, such as copies that a user has made, are left alone.
+bool has_rows(const std::string& name) {
+  static const std::regex shards("slides\\.shard-[0-9]+-of-[0-9]+\\.jsonl");
+  return name == kRows || name == kJournal || std::regex_match(name, shards);
+}
+
+/// Removes a journal, unless another run is writing it.
+void remove_journal(const std::filesystem::path& path) {
+  const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (file < 0) return;
+  if (flock(file, LOCK_EX | LOCK_NB) == 0) std::filesystem::remove(path);
+  close(file);
+}
+
+/// Whether this open file still has its name: another run may have removed it since.
+bool has_name(int file, const std::filesystem::path& path) {
+  struct stat of_file {};
+  struct stat of_path {};
+  return fstat(file, &of_file) == 0 && stat(path.c_str(), &of_path) == 0 && of_file.st_ino == of_path.st_ino;
 }
 
 /// Writes a file under another name, and renames it when it is complete.
@@ -35,7 +60,10 @@ class RenamedFile {
   void line(std::string_view text) { file_ << text << '\n'; }
   void finish() {
     file_.close();
-    if (!file_) throw std::runtime_error(partial_ + ": could not be written completely");
+    const int file = open(partial_.c_str(), O_RDONLY | O_CLOEXEC);
+    const bool is_on_disk = file >= 0 && fsync(file) == 0;
+    if (file >= 0) close(file);
+    if (!file_ || !is_on_disk) throw std::runtime_error(partial_ + ": could not be written completely");
     std::filesystem::rename(partial_, path_);
   }
 
@@ -57,7 +85,7 @@ StudyResults::StudyResults(std::filesystem::path folder, const Study& study, con
   std::vector<std::filesystem::path> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {
     const std::string name = entry.path().filename().string();
-    if (name.starts_with("slides") && name.ends_with(".jsonl")) found.push_back(entry.path());
+    if (has_rows(name)) found.push_back(entry.path());
   }
   std::sort(found.begin(), found.end());
   for (const std::filesystem::path& path : found)
@@ -78,8 +106,10 @@ void StudyResults::open_journal(const Shard& shard) {
     close(journal_);
     throw std::invalid_argument(journal_path_.string() + ": is not a regular file");
   }
-  if (flock(journal_, LOCK_EX | LOCK_NB) == 0) return;
+  const bool is_locked = flock(journal_, LOCK_EX | LOCK_NB) == 0;
+  if (is_locked && has_name(journal_, journal_path_)) return;
   close(journal_);
+  if (is_locked) return open_journal(shard);  // a run that has just ended has removed the file
   throw std::invalid_argument(journal_path_.string() + ": another run is writing this file");
 }
 
@@ -87,27 +117,31 @@ void StudyResults::open_journal(const Shard& shard) {
 void StudyResults::find_rows(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::invalid_argument(path.string() + ": cannot be read");
-  const auto number = static_cast<std::int32_t>(files_.size());
+  const auto number = static_cast<std::int32_t>(paths_.size());
   std::int64_t offset = 0;
+  std::int64_t line_number = 0;
   std::string line;
   while (std::getline(file, line) && !file.eof()) {
-    const nlohmann::json row = nlohmann::json::parse(line, nullptr, false);
-    const std::int64_t slide = row.is_object() ? row.value("slide", std::int64_t{-1}) : -1;
-    if (slide < 0)
-      throw std::invalid_argument(path.string() + ": has a line that is no row: " + files::in_quotes(line));
-    const bool belongs =
-        slide < study_.slides && row.value("input_hash", "") == files::hexadecimal(runner_.hash(slide));
-    outdated_ += belongs ? 0 : 1;
-    if (belongs && !has(slide)) {
-      places_[static_cast<std::size_t>(slide)] = {number, offset};
-      ++count_;
-    }
+    note_row(line, path.string() + ":" + std::to_string(++line_number), {number, offset});
     offset += static_cast<std::int64_t>(line.size()) + 1;
   }
   if (path == journal_path_ && ftruncate(journal_, offset) != 0)
     throw std::invalid_argument(path.string() + ": " + std::generic_category().message(errno));
   paths_.push_back(path);
-  files_.emplace_back(path, std::ios::binary);
+}
+
+void StudyResults::note_row(const std::string& line, const std::string& where, const Place& place) {
+  const nlohmann::json row = nlohmann::json::parse(line, nullptr, false);
+  const bool is_row = row.is_object() && row.contains("slide") && row["slide"].is_number_unsigned() &&
+                      row.contains("input_hash") && row["input_hash"].is_string() && row.contains("outcome");
+  if (!is_row) throw std::invalid_argument(where + ": is no row of a study: " + files::in_quotes(line));
+  if (row["outcome"] == kNotRun) return;  // it is tried again
+  const auto slide = row["slide"].get<std::int64_t>();
+  const bool belongs = slide < study_.slides && row["input_hash"] == files::hexadecimal(runner_.hash(slide));
+  outdated_ += belongs ? 0 : 1;
+  if (!belongs || has(slide)) return;
+  places_[static_cast<std::size_t>(slide)] = place;
+  ++count_;
 }
 
 void StudyResults::add(std::int64_t slide, const std::string& json) {
@@ -129,11 +163,12 @@ void StudyResults::add(std::int64_t slide, const std::string& json) {
 
 std::string StudyResults::row(std::int64_t slide) {
   const Place& place = places_[static_cast<std::size_t>(slide)];
-  std::ifstream& file = files_[static_cast<std::size_t>(place.file)];
-  file.clear();
-  file.seekg(place.offset);
+  const std::filesystem::path& path = paths_[static_cast<std::size_t>(place.file)];
+  if (place.file != reading_) file_ = std::ifstream(path, std::ios::binary);
+  reading_ = place.file;
+  file_.seekg(place.offset);
   std::string line;
-  std::getline(file, line);
+  if (!std::getline(file_, line)) throw std::runtime_error(path.string() + ": cannot be read any more");
   return line;
 }
 
@@ -156,8 +191,9 @@ StudyCounts StudyResults::finish() {
   numbers.line(summary.to_json().dump(2));
   numbers.finish();
   for (const std::filesystem::path& path : paths_) {
-    if (path.filename() != kRows) std::filesystem::remove(path);
+    if (path.filename() != kRows && path != journal_path_) remove_journal(path);
   }
+  std::filesystem::remove(journal_path_);
   return {summary.rows(), summary.successes(), summary.problems()};
 }
 

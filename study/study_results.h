@@ -51,9 +51,9 @@ class StudyResults {
   /// could not be written, for example on a full disk.
   void add(std::int64_t slide, const std::string& json);
 
-  /// Writes slides.csv, slides.jsonl and study.json, and removes the journals. Each file is written under another name
-  /// and then renamed. Throws std::logic_error if a row is missing, and std::runtime_error if a file could not be
-  /// written.
+  /// Writes slides.csv, slides.jsonl and study.json, and removes the journals that no other run is writing. Each file
+  /// is written under another name and then renamed. Throws std::logic_error if a row is missing, and
+  /// std::runtime_error if a file could not be written.
   StudyCounts finish();
 
  private:
@@ -63,6 +63,7 @@ class StudyResults {
   };
 
   void find_rows(const std::filesystem::path& file);
+  void note_row(const std::string& line, const std::string& where, const Place& place);
   void open_journal(const Shard& shard);
   std::string row(std::int64_t slide);
 
@@ -71,7 +72,8 @@ class StudyResults {
   const SlideRunner& runner_;
   std::vector<Place> places_;
   std::vector<std::filesystem::path> paths_{};
-  std::vector<std::ifstream> files_{};
+  std::ifstream file_{};  // the one with the number `reading_`
+  std::int32_t reading_ = -1;
   std::filesystem::path journal_path_{};
   int journal_ = -1;
   std::int64_t count_ = 0;

@@ -203,8 +203,10 @@ void add_study_command(CLI::App& app, Command& chosen) {
   command->add_option("--workers", options->workers, "Processes that run slides; default: one per processor")
       ->check(CLI::Range(1, kMostWorkers));
   command->add_option("--shard", options->shard, "Do a share of the slides only, such as 0/4, see above");
+  constexpr double kShortest_s = 1e-3;
+  constexpr double kLongest_s = 1e8;  // some years, and no overflow of nanoseconds
   command->add_option("--longest-s", options->longest_s, "A slide that takes more seconds is given up")
-      ->check(positive())
+      ->check(CLI::Range(kShortest_s, kLongest_s))
       ->capture_default_str();
   command->add_option("--slide", options->slide, "Run this slide only, and print its row as JSON");
   command->add_flag(WorkerProcess::kOption, options->is_worker)->group("");

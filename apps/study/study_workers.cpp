@@ -3,6 +3,7 @@
 #include <exception>
 #include <memory>
 #include <mutex>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -58,6 +59,7 @@ class Workers {
   std::optional<std::string> row_of(std::int64_t slide, std::unique_ptr<WorkerProcess>& process) {
     constexpr int kTrials = 3;
     std::string problem;
+    std::string death;
     for (int trial = 0; trial < kTrials; ++trial) {
       if (!process) process = std::make_unique<WorkerProcess>(work_.study_file);
       const WorkerProcess::Answer answer = process->run(slide, work_.longest, [this] { return should_stop(); });
@@ -68,9 +70,15 @@ class Workers {
         problem = study::too_long(std::chrono::duration<double>(work_.longest).count());
         break;
       }
+      if (answer.outcome == WorkerProcess::Outcome::kNotStarted) {
+        problem.clear();
+        death = answer.reason;
+        continue;
+      }
       problem = "the process of the slide was " + answer.reason + ", " + std::to_string(kTrials) + " times";
     }
-    return study::json_of(study_, runner_.problem_row(slide, problem));
+    if (problem.empty()) throw std::runtime_error("the worker processes cannot start: the last one was " + death);
+    return study::json_of(study_, runner_.not_run(slide, problem));
   }
 
   const study::Study& study_;

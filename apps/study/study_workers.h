@@ -25,7 +25,8 @@ struct StudyWork {
 };
 
 /// A slide whose process dies is tried three times, each time in a new process. Then, and if it takes too long, its row
-/// tells the problem. Throws what `take` throws, after the slides that are running have been stopped.
+/// tells the problem. Throws std::runtime_error if processes cannot start three times in a row. Also throws what `take`
+/// throws, after the slides that are running have been stopped.
 void run_slides(const study::Study& study, const study::SlideRunner& runner, const StudyWork& work);
 
 }  // namespace glissade::apps

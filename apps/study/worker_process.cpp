@@ -27,8 +27,10 @@ pid_t spawn(const std::string& study_file, int socket) {
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, socket, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, socket, STDOUT_FILENO);
-  std::array<std::string, 4> texts{"glissade", "study", study_file, WorkerProcess::kOption};
-  const std::array<char*, 5> arguments{texts[0].data(), texts[1].data(), texts[2].data(), texts[3].data(), nullptr};
+  // The name of the file may begin with a hyphen.
+  std::array<std::string, 5> texts{"glissade", "study", WorkerProcess::kOption, "--", study_file};
+  const std::array<char*, 6> arguments{texts[0].data(), texts[1].data(), texts[2].data(),
+                                       texts[3].data(), texts[4].data(), nullptr};
   pid_t id = -1;
   const int error = posix_spawn(&id, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -62,12 +64,21 @@ WorkerProcess::~WorkerProcess() {
 
 WorkerProcess::Answer WorkerProcess::run(std::int64_t slide, std::chrono::nanoseconds longest,
                                          const std::function<bool()>& should_stop) {
+  if (!is_ready_) {
+    Answer ready = receive(Clock::time_point::max(), should_stop);
+    if (ready.outcome == Outcome::kDied) ready.outcome = Outcome::kNotStarted;
+    if (ready.outcome != Outcome::kDone) return ready;
+    is_ready_ = true;
+  }
   const std::string line = std::to_string(slide) + '\n';
   send(socket_, line.data(), line.size(), MSG_NOSIGNAL);  // if the process is no more, the reading tells
-  const auto end = std::chrono::steady_clock::now() + longest;
+  return receive(Clock::now() + longest, should_stop);
+}
+
+WorkerProcess::Answer WorkerProcess::receive(Clock::time_point end, const std::function<bool()>& should_stop) {
   while (received_.find('\n') == std::string::npos) {
     if (should_stop()) return {Outcome::kStopped};
-    if (std::chrono::steady_clock::now() >= end) return {Outcome::kTooLong};
+    if (Clock::now() >= end) return {Outcome::kTooLong};
     pollfd readable{.fd = socket_, .events = POLLIN, .revents = 0};
     if (poll(&readable, 1, static_cast<int>(kStopPeriod.count())) <= 0) continue;
     std::array<char, 4096> bytes{};
@@ -92,6 +103,7 @@ std::string WorkerProcess::reason_of_death() {
 void serve_slides(const std::function<std::string(std::int64_t)>& row) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   std::signal(SIGINT, SIG_IGN);  // Ctrl-C is for the first process
+  std::cout << "ready" << std::endl;
   std::int64_t slide = 0;
   while (std::cin >> slide)
     std::cout << row(slide) << std::endl;

@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 import collections
 import functools
+import hashlib
 import json
 import pathlib
 import socket
@@ -27,14 +28,19 @@ LONGEST_BATCH = 10_000
 LOST_S = 60.0  # a scheduler that comes back within this time is waited for
 
 
+def fingerprint_of(path: str, study: glissade.Study) -> str:
+    """Differs if the study file or one of the files that it names has changed."""
+    return hashlib.sha256(pathlib.Path(path).read_bytes()).hexdigest() + f"{study.input_hash(0):016x}"
+
+
 @functools.lru_cache(maxsize=4)
-def _study(path: str, fingerprint: int) -> glissade.Study:
+def _study(path: str, fingerprint: str) -> glissade.Study:
     """The study of this process. Threads of a worker may read it twice at the start."""
     try:
         study = glissade.Study(path)
     except ValueError as error:
         raise ValueError(f"a worker on {socket.gethostname()}: {error}") from error
-    if study.input_hash(0) != fingerprint:
+    if fingerprint_of(path, study) != fingerprint:
         raise ValueError(
             f"a worker on {socket.gethostname()}: {path}: the files or the version of Glissade differ from those of "
             "the controller"
@@ -42,7 +48,7 @@ def _study(path: str, fingerprint: int) -> glissade.Study:
     return study
 
 
-def run_batch(path: str, fingerprint: int, slides: list[int], longest_s: float) -> tuple[list[str], float]:
+def run_batch(path: str, fingerprint: str, slides: list[int], longest_s: float) -> tuple[list[str], float]:
     """The rows of some slides, and the time that they took in seconds. Runs on a worker."""
     study = _study(path, fingerprint)
     start = time.monotonic()
@@ -56,7 +62,7 @@ class Fleet:
         self.path = str(path.resolve())
         self.study = glissade.Study(path)
         self.results = glissade.StudyResults(folder, self.study)
-        self.fingerprint = self.study.input_hash(0)
+        self.fingerprint = fingerprint_of(self.path, self.study)
         self.longest_s = longest_s
         self.next_slide = 0
         self.again: collections.deque[list[int]] = collections.deque()  # batches that failed, in smaller pieces
@@ -130,7 +136,7 @@ class Fleet:
         if len(slides) > 1:
             self.again.extend([slide] for slide in slides)
             return
-        self.results.add(slides[0], self.study.problem_row(slides[0], "the slide killed its worker several times"))
+        self.results.add(slides[0], self.study.not_run(slides[0], "the slide killed its worker several times"))
 
 
 def _connector(scheduler: str | None, workers: int | None):
@@ -160,6 +166,8 @@ def main() -> int:
     except ValueError as error:
         print(f"glissade: {error}", file=sys.stderr)
         return 2
+    if fleet.results.outdated:
+        print(f"glissade: warning: {folder}: {fleet.results.outdated} rows belong to other inputs", file=sys.stderr)
     start, before = time.monotonic(), len(fleet.results)
 
     def report(fleet: Fleet) -> None:
@@ -172,10 +180,14 @@ def main() -> int:
     except (OSError, RuntimeError, ValueError) as error:
         print(f"\nglissade: {error}. The same command goes on.", file=sys.stderr)
         return 1
-    rate = json.loads((folder / "study.json").read_text())["success_rate_95_percent"]
     print(file=sys.stderr)
-    print(f"{counts['successes']} of {counts['slides']} slides succeed "
-          f"(95 % interval: {100 * rate[0]:.2f} % to {100 * rate[1]:.2f} %)")  # fmt: skip
+    interval = json.loads((folder / "study.json").read_text())["success_rate_95_percent"]
+    print(f"{counts['successes']} of {counts['slides']} slides succeed", end="")
+    if interval:
+        print(f" (95 % interval: {100 * interval[0]:.2f} % to {100 * interval[1]:.2f} %)", end="")
+    if counts["problems"]:
+        print(f"; {counts['problems']} could not be run, see the column 'problem'", end="")
+    print()
     print(f"results: {folder / 'slides.csv'}")
     return 0
 

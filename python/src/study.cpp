@@ -31,9 +31,9 @@ class RunnableStudy {
   std::string row(std::int64_t slide, const study::SlideWatch& watch) const {
     return study::json_of(study_, runner_.run(slide, watch));
   }
-  std::string problem_row(std::int64_t slide, const std::string& problem) const {
+  std::string not_run(std::int64_t slide, const std::string& problem) const {
     check(slide);
-    return study::json_of(study_, runner_.problem_row(slide, problem));
+    return study::json_of(study_, runner_.not_run(slide, problem));
   }
   std::uint64_t hash(std::int64_t slide) const {
     check(slide);
@@ -68,7 +68,7 @@ std::string run_slide(const RunnableStudy& study, std::int64_t slide, double lon
   try {
     return study.row(slide, check_time);
   } catch (const TooLong&) {
-    return study.problem_row(slide, study::too_long(longest_s));
+    return study.not_run(slide, study::too_long(longest_s));
   }
 }
 
@@ -140,8 +140,8 @@ Builds the trees of the meshes. Raises ValueError, naming file, line and key, fo
 
 The row depends on the study and on the number of the slide only. A slide that is impossible has a 'problem'. A slide
 that takes more than `longest_s` seconds is given up, and has a problem too. Other threads run meanwhile. Raises IndexError if the study has no such slide.)")
-      .def("problem_row", &RunnableStudy::problem_row, py::arg("slide"), py::arg("problem"),
-           "The row of a slide that could not be run, as `run` gives it. `problem` is a sentence.")
+      .def("not_run", &RunnableStudy::not_run, py::arg("slide"), py::arg("problem"),
+           "The row of a slide that was given up because of the machine. `problem` is a sentence.")
       .def("input_hash", &RunnableStudy::hash, py::arg("slide"),
            "The hash in the column 'input_hash' of the row, as a number.");
   add_results(module);

@@ -1,5 +1,3 @@
-#include <chrono>
-
 #include <glissade/files/hash.h>
 #include <glissade/simulation/scene.h>
 
@@ -27,11 +25,10 @@ void add(Hash& hash, const contact::SlidingPart& part) {
 }
 
 void add(Hash& hash, const geometry::PoseTrajectory& script) {
-  constexpr int kPoses = 1000;
-  for (int i = 0; i <= kPoses; ++i) {
-    const std::chrono::nanoseconds time = script.first_time() + script.duration() / kPoses * i;
-    hash.add(static_cast<std::uint64_t>(time.count()));
-    hash.add(script.pose_at(time));
+  hash.add(std::uint64_t{script.rows().size()});
+  for (const geometry::TimedPose& row : script.rows()) {
+    hash.add(static_cast<std::uint64_t>(row.time.count()));
+    hash.add(row.X_WB);
   }
 }
 

@@ -25,6 +25,7 @@ using files::in_quotes;
 
 constexpr std::uintmax_t kLargestStudyFile = std::uintmax_t{1} << 24U;
 constexpr double kMostSlides = 1e8;
+constexpr double kLargestValue = 1e9;                // as coordinates
 constexpr double kLargestSeed = 9007199254740992.0;  // all whole numbers up to it are doubles
 
 /// Reads one study file.
@@ -185,6 +186,8 @@ class StudyReader {
   Distribution shape_of(const std::string& key, const YAML::Node& values) const {
     if (key == "one_of") return {read_one_of(values)};
     const Eigen::VectorXd numbers = yaml_.numbers(values, key, key == "triangular" ? 3 : 2);
+    for (const double number : numbers)
+      check_size(values, key, number);
     if (key == "normal") {
       if (!(numbers[1] > 0.0)) yaml_.fail(values, "normal: the standard deviation must be positive");
       return {Normal{numbers[0], numbers[1]}};
@@ -197,6 +200,11 @@ class StudyReader {
     return {Triangular{numbers[0], numbers[1], last}};
   }
 
+  void check_size(const YAML::Node& node, const std::string& key, double number) const {
+    if (std::abs(number) <= kLargestValue) return;
+    yaml_.fail(node, key + ": numbers must lie between -1e9 and 1e9, not " + files::format_number(number));
+  }
+
   OneOf read_one_of(const YAML::Node& values) const {
     if (!values.IsSequence() || values.size() == 0) yaml_.fail(values, "one_of: must be a list of values");
     OneOf one_of;
@@ -207,6 +215,8 @@ class StudyReader {
       if (const std::optional<double> number = files::parse_number(one_of.names.back()))
         one_of.numbers.push_back(*number);
     }
+    for (const double number : one_of.numbers)
+      check_size(values, "one_of", number);
     if (one_of.numbers.size() != one_of.names.size()) one_of.numbers.clear();
     return one_of;
   }

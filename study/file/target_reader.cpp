@@ -99,6 +99,11 @@ Target target_from(const std::string& name, const simulation::Scene& scene, cons
   const std::string property = dot == std::string::npos ? "" : name.substr(dot + 1);
   const auto displaced = displaced_targets().find(owner);
   if (displaced != displaced_targets().end()) {
+    const auto has_name = [&](const simulation::SceneObject& object) { return object.name == owner; };
+    if (std::any_of(scene.objects.begin(), scene.objects.end(), has_name)) {
+      throw std::invalid_argument(in_quotes(name) + ": could mean the " + owner + " of the slide or the object " +
+                                  in_quotes(owner) + "; give the object another name");
+    }
     if (const std::optional<int> axis = axis_from(property)) return {.kind = displaced->second, .axis = *axis};
     fail(name, property, {kAxisNames.begin(), kAxisNames.end()});
   }

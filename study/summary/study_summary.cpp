@@ -148,12 +148,12 @@ std::vector<std::int64_t> StudySummary::worst() const {
 nlohmann::ordered_json StudySummary::to_json() const {
   const Rate rate = success_rate(successes(), rows());
   nlohmann::ordered_json json;
-  json["study"] = study_.source;
   json["slides"] = rows();
   json["successes"] = successes();
   json["problems"] = problems_;
   json["success_rate"] = rate.share;
-  json["success_rate_95_percent"] = {rate.least, rate.greatest};
+  json["success_rate_95_percent"] = nullptr;  // the values of a grid are not random
+  if (study_.sampling != Sampling::kGrid) json["success_rate_95_percent"] = {rate.least, rate.greatest};
   json["outcomes"] = outcomes_;
   std::vector<nlohmann::ordered_json> sensitivities;
   for (std::size_t p = 0; p < values_.size(); ++p)

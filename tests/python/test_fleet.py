@@ -97,7 +97,7 @@ def test_a_slide_that_kills_its_worker_has_a_problem(file):
 def test_other_files_at_a_worker_are_told(file):
     fleet._study.cache_clear()
     with pytest.raises(ValueError, match="differ from those of the controller"):
-        fleet.run_batch(str(file), 1, [0], 1.0)
+        fleet.run_batch(str(file), "another", [0], 1.0)
 
 
 class Scheduler:

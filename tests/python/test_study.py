@@ -48,17 +48,17 @@ def test_rows_are_the_same_from_any_thread(file):
     assert [again.run(slide) for slide in reversed(range(20))] == rows[::-1]
 
 
-def test_problem_rows_keep_their_values(file):
+def test_not_runs_keep_their_values(file):
     study = glissade.Study(file)
-    row = json.loads(study.problem_row(5, "the machine was lost"))
+    row = json.loads(study.not_run(5, "the machine was lost"))
     assert row["problem"] == "the machine was lost"
-    assert row["success"] == 0 and row["outcome"] == "problem"
+    assert row["success"] == 0 and row["outcome"] == "not run"
     assert row["path.x_m"] == json.loads(study.run(5))["path.x_m"]
 
 
 def test_wrong_input_is_told(file):
     study = glissade.Study(file)
-    for wrong in (study.run, study.input_hash, lambda slide: study.problem_row(slide, "")):
+    for wrong in (study.run, study.input_hash, lambda slide: study.not_run(slide, "")):
         for slide in (-1, 20):
             with pytest.raises(IndexError, match="20"):
                 wrong(slide)

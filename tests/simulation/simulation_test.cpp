@@ -46,6 +46,19 @@ TEST(Simulation, WrenchIsTheSpringOfTheCouplingAtRest) {
   EXPECT_LT(simulation.wrench(0).t.norm(), 1e-6);
 }
 
+TEST(SceneBodies, EachRowOfAScriptChangesTheHash) {
+  const auto hash_with = [](double height) {
+    std::vector<geometry::TimedPose> rows;
+    for (int i = 0; i <= 5000; ++i)
+      rows.push_back({milliseconds(i), at(0.0, 0.0, i == 2503 ? height : 0.5)});
+    Scene scene = room();
+    scene.objects[1].motion = SceneMotion{geometry::PoseTrajectory(rows)};
+    return hash_of(bodies_of(scene, {"box"}));
+  };
+  EXPECT_EQ(hash_with(0.5), hash_with(0.5));
+  EXPECT_NE(hash_with(0.503), hash_with(0.5));
+}
+
 TEST(Simulation, AdvanceTakesHoldOfAReleasedPart) {
   Simulation simulation(room());
   simulation.engine().leave_part(0);  // as a server does

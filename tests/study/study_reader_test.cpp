@@ -95,6 +95,7 @@ TEST(StudyReader, DeviationsAreToldWithTheirLine) {
       {"parameters:\n  - {vary: trajectory, one_of: [path.csv]}\nslides: 3\n", 3, "values name the files"},
       {"parameters:\n  - {vary: path.x_m, uniform: [0, 1]}\n  - {vary: path.x_m, one_of: [1]}\nslides: 3\n", 6,
        "twice"},
+      {"parameters:\n  - {vary: path.x_m, uniform: [-1e308, 1e308]}\nslides: 3\n", 5, "1e9"},
       {"parameters:\n  - {name: outcome, vary: path.x_m, uniform: [0, 1]}\nslides: 3\n", 5, "another column"},
       {"parameters:\n  - {vary: path.x_m, uniform: [0, 1]}\nslides: 2.5\n", 6, "whole number"},
       {"parameters:\n  - {vary: path.x_m, uniform: [0, 1]}\nsampling: grid\n", 5, "steps"},

@@ -1,14 +1,20 @@
 /// `glissade study`: the same bytes for any number of processes, also after faults.
 
+#include <algorithm>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 #include <thread>
+#include <vector>
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <glissade/files/text_file.h>
 
@@ -23,6 +29,21 @@ using test_support::expect_refused;
 using test_support::glissade;
 using test_support::ProgramResult;
 using testing::HasSubstr;
+using testing::Not;
+
+/// Kills one process that has all these arguments; false if there is none.
+bool kill_process_with_arguments(const std::vector<std::string>& wanted) {
+  for (const auto& process : std::filesystem::directory_iterator("/proc")) {
+    std::ifstream file(process.path() / "cmdline", std::ios::binary);
+    std::set<std::string> arguments;
+    for (std::string argument; std::getline(file, argument, '\0');)
+      arguments.insert(argument);
+    const auto has = [&](const std::string& argument) { return arguments.contains(argument); };
+    if (!std::all_of(wanted.begin(), wanted.end(), has)) continue;
+    return kill(std::stoi(process.path().filename().string()), SIGKILL) == 0;
+  }
+  return false;
+}
 
 class StudyCommand : public testing::Test {
  protected:
@@ -58,8 +79,7 @@ class StudyCommand : public testing::Test {
     const std::string journal = folder.path(out + "/slides.journal.jsonl");
     while (!std::filesystem::exists(journal) || std::filesystem::file_size(journal) == 0)
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    // The brackets keep the pattern from matching the shell that runs this command.
-    EXPECT_EQ(std::system(("pkill -KILL -n -f '" + study + " --worke[r]'").c_str()), 0);
+    EXPECT_TRUE(kill_process_with_arguments({"--worker", study}));
   }
 
   static constexpr int kSlides = 60;
@@ -127,6 +147,36 @@ TEST_F(StudyCommand, AFinishedStudyRunsOnlyWhatIsMissing) {
   EXPECT_EQ(read_text_file(folder.path("out/slides.jsonl")).substr(0, marked.size()), marked);
 }
 
+TEST_F(StudyCommand, FilesOfOthersStay) {
+  std::filesystem::create_directory(folder.path("out"));
+  folder.write("out/slides_backup.jsonl", "mine");
+  // A shard that is being run has locked its journal.
+  const std::string shard = folder.write("out/slides.shard-0-of-2.jsonl", "");
+  const int other_run = open(shard.c_str(), O_RDONLY);
+  ASSERT_EQ(flock(other_run, LOCK_EX), 0);
+  table_of("out");
+  EXPECT_EQ(read_text_file(folder.path("out/slides_backup.jsonl")), "mine");
+  EXPECT_TRUE(std::filesystem::exists(shard));
+  expect_refused({"study", study, "--out", folder.path("out"), "--shard", "0/2"}, {"another run is writing"});
+  close(other_run);
+}
+
+TEST_F(StudyCommand, ALineThatIsNoRowIsToldWithItsPlace) {
+  std::filesystem::create_directory(folder.path("out"));
+  folder.write("out/slides.jsonl", "{\"slide\": \"x\"}\n");
+  expect_refused({"study", study, "--out", folder.path("out")}, {"slides.jsonl:1", "no row"});
+}
+
+TEST_F(StudyCommand, AFileNameMayBeginWithAHyphen) {
+  write_study("-study.yaml", 4);
+  const ProgramResult result =
+      test_support::Process(
+          {"sh", "-c", "cd " + folder.path("") + " && exec " GLISSADE_PROGRAM " study --out out -- -study.yaml"})
+          .wait();
+  EXPECT_THAT(result.standard_output, HasSubstr("of 4 slides succeed"));
+  EXPECT_THAT(result.standard_output, Not(HasSubstr("could not be run")));
+}
+
 TEST_F(StudyCommand, RowsOfOtherInputsAreRunAgain) {
   const std::string before = table_of("out");
   folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n0.05,0,0,-0.002,1,0,0,0\n");
@@ -150,14 +200,30 @@ TEST_F(StudyCommand, AStudyThatChangesDuringTheRunIsTold) {
   EXPECT_THAT(result.standard_error, HasSubstr("changed during the run"));
 }
 
+TEST_F(StudyCommand, WorkersThatCannotStartEndTheRun) {
+  std::jthread changer([this] {
+    const std::string journal = folder.path("out/slides.journal.jsonl");
+    while (!std::filesystem::exists(journal) || std::filesystem::file_size(journal) == 0)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    folder.write("path.csv", "no trajectory");
+    kill_a_worker("out");
+  });
+  const ProgramResult result = glissade({"study", study, "--out", folder.path("out"), "--quiet", "--workers", "1"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.standard_error, HasSubstr("cannot start"));
+  EXPECT_THAT(result.standard_error, HasSubstr("path.csv:1")) << "the worker says why";
+  EXPECT_THAT(read_text_file(folder.path("out/slides.journal.jsonl")), Not(HasSubstr("not run")));
+}
+
 TEST_F(StudyCommand, ASlideThatTakesTooLongIsAProblem) {
   folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0.001,1,0,0,0\n3600,0,0,-0.003,1,0,0,0\n");
   study = write_study("study.yaml", 2);
   const std::string table = table_of("out", {"--longest-s", "0.5"});
   const std::vector<test_support::CsvRow> rows = test_support::rows_of(table);
   ASSERT_EQ(rows.size(), 2U);
-  EXPECT_EQ(rows[0].at("outcome"), "problem");
+  EXPECT_EQ(rows[0].at("outcome"), "not run");
   EXPECT_EQ(rows[0].at("problem"), "the slide did not end within 0.5 s");
+  expect_refused({"study", study, "--longest-s", "1e10"}, {"--longest-s"});
 }
 
 TEST_F(StudyCommand, OneSlideIsPrintedAsItsRow) {
