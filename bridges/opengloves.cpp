@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 
 #include <glissade/bridges/opengloves.h>
 
@@ -14,8 +13,6 @@ devices::GloveModel opengloves_model() {
 devices::DeviceDescriptor opengloves_descriptor() {
   const devices::GloveModel model = opengloves_model();
   devices::DeviceDescriptor descriptor = devices::descriptor_of(model);
-  const std::chrono::duration<double> usual_delay(model.measurement_delay + model.link.delay + 0.5 * model.link.jitter);
-  descriptor.delay = std::chrono::duration_cast<std::chrono::nanoseconds>(usual_delay);
   constexpr double kDeviations = 2.0;  // hardly any noise is larger
   descriptor.joint_resolution = std::max(descriptor.joint_resolution, kDeviations * model.sensor.noise);
   descriptor.resolution = 0.0;  // the glove measures the fingers only

@@ -107,7 +107,8 @@ struct JointSensorModel {
   double drift_time = 100.0;  ///< correlation time of the drift, s
 };
 
-/// The link between device and server. It applies to states and to commands.
+/// The link between device and server. It applies to states and to commands. `DeviceDescriptor::delay` includes the
+/// longest time of both ways, because ages of messages do not show a delay that is always there.
 struct LinkModel {
   double delay = 0.0;   ///< s
   double jitter = 0.0;  ///< largest additional delay, uniformly distributed, s

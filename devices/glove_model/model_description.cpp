@@ -103,7 +103,9 @@ DeviceDescriptor descriptor_of(const GloveModel& model) {
   DeviceDescriptor descriptor;
   descriptor.name = model.name;
   descriptor.update_rate = model.update_rate;
-  descriptor.delay = nanoseconds_of(model.measurement_delay);
+  // The haptic loop sees only late states: it cannot tell the time on the model's link from a difference of clocks.
+  const double on_link = 2.0 * (model.link.delay + model.link.jitter);
+  descriptor.delay = nanoseconds_of(std::min(1.0, model.measurement_delay + on_link));
   const WristModel& wrist = model.wrist;
   descriptor.resolution = wrist.position_noise;
   if (wrist.is_grounded) {

@@ -75,13 +75,40 @@ TEST(HeldHalfSpacesInTheLoop, HandsThatPressTheirPartsTogetherComeToRest) {
   EXPECT_GT(least, 0.5 * kEdge + 1e-3 - 0.05) << "the part of A holds the hand back";
 }
 
+// An arm that takes a wrench over this link is as soft as the link demands. With the stiffness for an arm without a
+// link, it would swing.
+TEST(HeldHalfSpacesInTheLoop, AnArmThatTakesAWrenchOverALinkComesToRest) {
+  using test_support::at;
+  devices::GloveModel arm = holding_arm();
+  arm.wrist.holds_half_spaces = false;
+  arm.link.delay = 15e-3;
+  constexpr double kEdge = 0.04;
+  const auto start = at(0.0, 0.0, 0.5 * kEdge + 1e-3);
+  const devices::SimulatedGloveParameters light{.mass = 0.2, .wearer_stiffness = 200.0, .wearer_damping = 3.0};
+  devices::SimulatedGlove glove(
+      geometry::PoseTrajectory({{milliseconds(0), start}, {milliseconds(1000), at(0.0, 0.0, 0.0)}}), light, arm);
+  grasping::GraspSimulation sliding{{test_support::obstacle_of(geometry::make_plate({0.5, 0.5}, 2))},
+                                    {{.part_V = test_support::cube(kEdge), .X_WV_start = start}}};
+  double least = 1.0;
+  double greatest = -1.0;
+  double stiffness = 0.0;
+  run_offline({{&glove}}, sliding, 8000, [&](const devices::HapticState& state) {
+    if (state.time < milliseconds(6000)) return;
+    const double z = glove.true_state().X_WH.translation().z();
+    least = std::min(least, z);
+    greatest = std::max(greatest, z);
+    stiffness = state.hands[0].force_W.z() / (state.parts[0].X_WV.translation().z() - z);
+  });
+  EXPECT_LT(greatest - least, 20e-6);
+  EXPECT_NEAR(stiffness, 2.0 / (0.5e-3 + 30e-3), 10.0) << "damping over half a period and the way there and back";
+}
+
 // What a wrench would be over the same link.
 TEST(HeldHalfSpacesInTheLoop, StiffnessIsThatOfTheOwnLoop) {
   devices::GloveModel arm = behind_slow_link(holding_arm());
-  const contact::CouplingStiffness held = passive_stiffness(devices::descriptor_of(arm), kTickPeriod, milliseconds(20));
+  const contact::CouplingStiffness held = passive_stiffness(devices::descriptor_of(arm), kTickPeriod, {});
   arm.wrist.holds_half_spaces = false;
-  const contact::CouplingStiffness forced =
-      passive_stiffness(devices::descriptor_of(arm), kTickPeriod, milliseconds(20));
+  const contact::CouplingStiffness forced = passive_stiffness(devices::descriptor_of(arm), kTickPeriod, {});
   EXPECT_NEAR(held.translational, 2.0 / 1.5e-3, 1e-6);
   EXPECT_NEAR(forced.translational, 2.0 / (0.5 / 60.0 + 20e-3), 1e-6);
 }
