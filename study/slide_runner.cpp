@@ -64,10 +64,17 @@ std::vector<simulation::SceneBodies> known_bodies(const Study& study) {
 SlideRunner::SlideRunner(const Study& study)
     : study_(study), sampler_(study), known_(known_bodies(study)), study_hash_(hash_of(study, known_)) {}
 
+std::vector<double> SlideRunner::values(std::int64_t number) const {
+  if (number >= 0 && number < study_.slides) return sampler_.values(number);
+  throw std::out_of_range("slide " + std::to_string(number) + ": the study has " + std::to_string(study_.slides));
+}
+
+simulation::Scene SlideRunner::scene(std::int64_t number) const {
+  return variant_of(study_, values(number)).scene;
+}
+
 SlideRow SlideRunner::run(std::int64_t number, const SlideWatch& watch) const {
-  if (number < 0 || number >= study_.slides)
-    throw std::out_of_range("slide " + std::to_string(number) + ": the study has " + std::to_string(study_.slides));
-  SlideRow row{.slide = number, .values = sampler_.values(number)};
+  SlideRow row{.slide = number, .values = values(number)};
   row.input_hash = input_hash(study_hash_, row.values);
   try {
     row.measures = slide(row.values, watch);

@@ -29,6 +29,10 @@ class SlideRunner {
   /// gives a row with a `problem`. Throws std::out_of_range for a number that the study does not have.
   SlideRow run(std::int64_t number, const SlideWatch& watch = {}) const;
 
+  /// The scene of a slide, with the values of its parameters. Throws std::out_of_range as `run`, and
+  /// std::invalid_argument, naming the object, if the values are impossible.
+  simulation::Scene scene(std::int64_t number) const;
+
   /// The row of a slide that could not be run, for example because its process crashed.
   SlideRow not_run(std::int64_t number, const std::string& problem) const;
 
@@ -36,6 +40,7 @@ class SlideRunner {
   std::uint64_t hash(std::int64_t number) const { return input_hash(study_hash_, sampler_.values(number)); }
 
  private:
+  std::vector<double> values(std::int64_t number) const;
   SlideMeasures slide(const std::vector<double>& values, const SlideWatch& watch) const;
   std::string outcome_of(const SlideMeasures& measures) const;
 

@@ -172,6 +172,12 @@ std::string StudyResults::row(std::int64_t slide) {
   return line;
 }
 
+void StudyResults::for_each_row(const std::function<void(const std::string& json)>& see) {
+  for (std::int64_t slide = 0; slide < study_.slides; ++slide) {
+    if (has(slide)) see(row(slide));
+  }
+}
+
 StudyCounts StudyResults::finish() {
   if (count_ != study_.slides)
     throw std::logic_error(folder_.string() + ": " + std::to_string(study_.slides - count_) + " rows are missing");
@@ -179,12 +185,15 @@ StudyCounts StudyResults::finish() {
   RenamedFile rows(folder_ / kRows);
   csv.line(files::joined(columns_of(study_), ","));
   StudySummary summary(study_);
-  for (std::int64_t slide = 0; slide < study_.slides; ++slide) {
-    const std::string json = row(slide);
+  std::vector<Place> places;
+  std::int64_t offset = 0;
+  for_each_row([&](const std::string& json) {
     summary.add(nlohmann::json::parse(json));
     csv.line(csv_of(json));
     rows.line(json);
-  }
+    places.push_back({0, offset});
+    offset += static_cast<std::int64_t>(json.size()) + 1;
+  });
   csv.finish();
   rows.finish();
   RenamedFile numbers(folder_ / "study.json");
@@ -194,6 +203,9 @@ StudyCounts StudyResults::finish() {
     if (path.filename() != kRows && path != journal_path_) remove_journal(path);
   }
   std::filesystem::remove(journal_path_);
+  places_ = std::move(places);
+  paths_ = {folder_ / kRows};
+  reading_ = -1;
   return {summary.rows(), summary.successes(), summary.problems()};
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ class StudyResults {
   /// row belongs to other inputs, for example because a worker has read files that have changed since, and if the row
   /// could not be written, for example on a full disk.
   void add(std::int64_t slide, const std::string& json);
+
+  /// Calls `see` with each row that is there, in the order of the slides. Throws what `see` throws, and
+  /// std::runtime_error if a file cannot be read any more.
+  void for_each_row(const std::function<void(const std::string& json)>& see);
 
   /// Writes slides.csv, slides.jsonl and study.json, and removes the journals that no other run is writing. Each file
   /// is written under another name and then renamed. Throws std::logic_error if a row is missing, and

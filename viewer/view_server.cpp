@@ -2,12 +2,12 @@
 #include <atomic>
 #include <chrono>
 #include <limits>
-#include <stdexcept>
+#include <string_view>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include <boost/asio/io_context.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
 
@@ -18,31 +18,21 @@
 #include <glissade/viewer/view_frame.h>
 #include <glissade/viewer/view_server.h>
 
-#include "server/connection.h"
+#include "server/http_port.h"
 #include "server/live_client.h"
 
 namespace glissade::viewer {
 
 namespace asio = boost::asio;
 namespace beast = boost::beast;
-using asio::ip::tcp;
+namespace http = beast::http;
 
 namespace {
 
 constexpr std::size_t kRingStates = 1024;  // a second of the usual loop
-constexpr std::size_t kMostConnections = 128;
-constexpr std::chrono::milliseconds kAcceptPause{100};
 constexpr std::chrono::microseconds kFramePeriod{16'667};
 constexpr std::size_t kMostClients = 64;
 constexpr std::chrono::milliseconds kLongestGoodbye{300};  // a page that reads answers in a few
-
-tcp::acceptor listening(asio::io_context& io, std::uint16_t port) {
-  try {
-    return {io, tcp::endpoint(asio::ip::address_v4::loopback(), port)};
-  } catch (const boost::system::system_error& error) {
-    throw std::invalid_argument("port " + std::to_string(port) + " cannot be opened: " + error.code().message());
-  }
-}
 
 }  // namespace
 
@@ -52,14 +42,13 @@ class ViewServer::Service {
   Service(ViewScene scene, std::uint16_t port)
       : scene_(std::move(scene)),
         frames_(scene_),
-        acceptor_(listening(io_, port)),
+        page_(std::make_shared<const std::string>(page())),
+        first_model_(std::make_shared<const std::string>(scene_model(scene_, kFirstTriangles))),
+        http_port_(
+            io_, port, [this](std::string_view target) { return answer(target); },
+            [this](beast::tcp_stream&& stream, const HttpRequest& request) { add_client(std::move(stream), request); }),
         timer_(io_),
-        pause_(io_),
-        goodbye_(io_),
-        port_(acceptor_.local_endpoint().port()) {
-    answers_.page = page();
-    answers_.first_model = std::make_shared<const std::string>(scene_model(scene_, kFirstTriangles));
-    accept();
+        goodbye_(io_) {
     next_frame();
     serving_ = std::jthread([this] { serve(); });
     making_ = std::jthread([this] { make_whole_model(); });
@@ -69,7 +58,7 @@ class ViewServer::Service {
     asio::post(io_, [this] { end(); });
   }
 
-  std::uint16_t port() const noexcept { return port_; }
+  std::uint16_t port() const noexcept { return http_port_.port(); }
   bool has_had_client() const noexcept { return has_had_client_.load(std::memory_order_relaxed); }
   void push(const devices::HapticState& state) noexcept { states_.push(state); }
 
@@ -84,35 +73,13 @@ class ViewServer::Service {
     }
   }
 
-  void accept() {
-    acceptor_.async_accept([this](beast::error_code error, tcp::socket socket) {
-      std::erase_if(connections_, [](const auto& connection) { return connection.expired(); });
-      if (error || (connections_.size() >= kMostConnections && !close_oldest_idle())) {
-        pause_.expires_after(kAcceptPause);  // without descriptors, the next one fails at once
-        pause_.async_wait([this](beast::error_code) { accept(); });
-        return;
-      }
-      socket.set_option(tcp::no_delay(true), error);
-      const auto connection = std::make_shared<Connection>(
-          beast::tcp_stream(std::move(socket)), answers_,
-          [this](beast::tcp_stream&& stream, const HttpRequest& request) { add_client(std::move(stream), request); });
-      connections_.push_back(connection);
-      connection->start();
-      accept();
-    });
-  }
-
-  /// Makes room for a new connection: many that ask for nothing keep no page out. Returns whether there was an idle
-  /// one.
-  bool close_oldest_idle() {
-    for (auto place = connections_.begin(); place != connections_.end(); ++place) {
-      const std::shared_ptr<Connection> connection = place->lock();
-      if (!connection || !connection->is_idle()) continue;
-      connection->close();
-      connections_.erase(place);
-      return true;
-    }
-    return false;
+  Content answer(std::string_view target) const {
+    constexpr std::string_view kModel = "model/gltf-binary";
+    if (target == "/") return {.type = "text/html; charset=utf-8", .text = page_};
+    if (target == "/model.glb") return {.type = kModel, .text = first_model_};
+    if (target == "/whole_model.glb" && whole_model_) return {.type = kModel, .text = whole_model_};
+    if (target == "/whole_model.glb") return plain(http::status::accepted, "the model is being made\n");
+    return plain(http::status::not_found, "there is no such page\n");
   }
 
   void add_client(beast::tcp_stream&& stream, const HttpRequest& request) {
@@ -139,8 +106,7 @@ class ViewServer::Service {
 
   /// Without a goodbye, pages would take the end for a failure.
   void end() {
-    beast::error_code ignored;
-    acceptor_.close(ignored);  // or a page might come back too soon
+    http_port_.close();  // or a page might come back too soon
     goodbye_.expires_after(kLongestGoodbye);
     goodbye_.async_wait([this](beast::error_code) { io_.stop(); });
     const auto open_clients = std::make_shared<std::size_t>(clients_.size() + 1);
@@ -157,7 +123,7 @@ class ViewServer::Service {
     realtime::name_this_thread("viewer-model");
     try {
       auto model = std::make_shared<const std::string>(scene_model(scene_, std::numeric_limits<std::size_t>::max()));
-      asio::post(io_, [this, model = std::move(model)] { answers_.whole_model = model; });
+      asio::post(io_, [this, model = std::move(model)] { whole_model_ = model; });
     } catch (const std::exception&) {
     }
   }
@@ -166,16 +132,15 @@ class ViewServer::Service {
   FrameMaker frames_;
   std::string frame_;  // the last one
   asio::io_context io_{1};
-  tcp::acceptor acceptor_;
+  std::shared_ptr<const std::string> page_;
+  std::shared_ptr<const std::string> first_model_;
+  std::shared_ptr<const std::string> whole_model_;  // null until it has been made
+  HttpPort http_port_;
   asio::steady_timer timer_;
-  asio::steady_timer pause_;
   asio::steady_timer goodbye_;
-  std::uint16_t port_;
-  Answers answers_;
   std::vector<std::shared_ptr<LiveClient>> clients_;
   realtime::SpscRing<devices::HapticState> states_{kRingStates};
   std::atomic<bool> has_had_client_{false};
-  std::vector<std::weak_ptr<Connection>> connections_;  // the oldest first
   std::jthread making_;
   std::jthread serving_;  // joined first
 };

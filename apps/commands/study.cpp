@@ -2,21 +2,26 @@
 #include <chrono>
 #include <iostream>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
 #include <glissade/apps/progress.h>
+#include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/stop_signal.h>
 #include <glissade/apps/say.h>
+#include <glissade/apps/study/study_report.h>
 #include <glissade/apps/study/study_workers.h>
 #include <glissade/apps/study/worker_process.h>
 #include <glissade/apps/text.h>
 #include <glissade/apps/usage.h>
+#include <glissade/apps/view/session_view.h>
 #include <glissade/study/slide_row.h>
 #include <glissade/study/slide_runner.h>
 #include <glissade/study/study.h>
@@ -46,10 +51,14 @@ constexpr const char* kStudyFooter =
     "seed of the study and on the number of the slide only. So the results are the same to the byte for any number of\n"
     "processes and in any order.\n"
     "\n"
-    "Output, in the folder --out: slides.csv with one row per slide, slides.jsonl with the same rows as JSON, and\n"
-    "study.json with the success rate. If a run is stopped, the same command goes on where it ended. If the study, "
-    "its\n"
-    "meshes or the version of Glissade have changed, the slides are run again.\n"
+    "Output, in the folder --out: slides.csv with one row per slide, slides.jsonl with the same rows as JSON,\n"
+    "study.json with the success rate, and the page index.html with a map, a table and the replays of the worst\n"
+    "slides. If a run is stopped, the same command goes on where it ended. If the study, its meshes or the version of\n"
+    "Glissade have changed, the slides are run again.\n"
+    "\n"
+    "With --view, a browser shows the page during the run, and the replay of any slide. The command then goes on "
+    "until\n"
+    "Ctrl-C.\n"
     "\n"
     "Several machines: with --shard 0/4, a run does each fourth slide, beginning with slide 0. When all shards are in\n"
     "the folder, the command without --shard makes the tables.\n"
@@ -60,7 +69,7 @@ constexpr const char* kStudyFooter =
     "\n"
     "Examples, with the files of 'glissade example':\n"
     "  glissade study square_peg_study.yaml --out peg_results\n"
-    "  glissade study square_peg_study.yaml --slide 7";
+    "  glissade study square_peg_study.yaml --slide 7 --report slide_7";
 
 struct StudyOptions {
   std::string file;
@@ -69,6 +78,8 @@ struct StudyOptions {
   std::string shard = "0/1";
   double longest_s = 600.0;
   std::optional<std::int64_t> slide;
+  std::string report;
+  std::optional<std::uint16_t> view_port;
   bool is_worker = false;
 };
 
@@ -123,7 +134,7 @@ class MissingSlides {
 
 /// Runs what is missing.
 void run_missing(const StudyOptions& options, const study::Study& study, const study::SlideRunner& runner,
-                 const study::Shard& shard, study::StudyResults& files) {
+                 const study::Shard& shard, study::StudyResults& files, std::mutex& rows_mutex) {
   MissingSlides missing(files, shard, study.slides);
   ProgressBar progress("sliding", study.slides, slides_and_rate(files.count()));
   const StudyWork work{.study_file = options.file,
@@ -132,6 +143,7 @@ void run_missing(const StudyOptions& options, const study::Study& study, const s
                        .next = [&missing] { return missing(); },
                        .take =
                            [&](std::int64_t slide, const std::string& json) {
+                             const std::scoped_lock lock(rows_mutex);
                              files.add(slide, json);
                              progress.update(files.count());
                            },
@@ -149,25 +161,36 @@ void tell(const study::Study& study, const study::StudyCounts& counts, const std
   if (study.sampling != study::Sampling::kGrid)
     std::cout << " (95 % interval: " << percent(rate.least) << " to " << percent(rate.greatest) << ')';
   if (counts.problems > 0) std::cout << "; " << counts.problems << " could not be run, see the column 'problem'";
-  std::cout << "\nresults: " << folder << "/slides.csv\n";
+  std::cout << "\nresults: " << folder << "/slides.csv, " << report_page(folder) << std::endl;
 }
 
-int run(StudyOptions options) {
-  const study::Study study = study::read_study(options.file);
-  const study::SlideRunner runner(study);
-  const auto row = [&](std::int64_t slide) { return study::json_of(study, runner.run(slide)); };
-  if (options.is_worker) {
-    serve_slides(row);
-    return 0;
+/// Prints a row, and writes its page.
+void run_one(const StudyOptions& options, const study::Study& study, const study::SlideRunner& runner) {
+  if (*options.slide < 0 || *options.slide >= study.slides) {
+    throw std::invalid_argument("--slide: the study has the slides 0 to " + std::to_string(study.slides - 1) +
+                                ", not " + std::to_string(*options.slide));
   }
-  if (options.slide) {
-    if (*options.slide < 0 || *options.slide >= study.slides) {
-      throw std::invalid_argument("--slide: the study has the slides 0 to " + std::to_string(study.slides - 1) +
-                                  ", not " + std::to_string(*options.slide));
-    }
-    std::cout << row(*options.slide) << '\n';
-    return 0;
+  if (!options.report.empty()) {
+    prepare_report_folder(options.report);
+    write_html_report(slide_report(study, runner, *options.slide), options.report);
   }
+  std::cout << study::json_of(study, runner.run(*options.slide)) << '\n';
+}
+
+std::unique_ptr<viewer::PageServer> open_pages(std::uint16_t port, const StudyReport& report) {
+  try {
+    auto server =
+        std::make_unique<viewer::PageServer>(port, [&report](std::string_view path) { return report.find(path); });
+    say("glissade study: open " + server->url());
+    return server;
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(std::string("--view: ") + error.what() +
+                                "; choose another port, or any free one with --view 0");
+  }
+}
+
+/// Runs the slides that are missing, and writes tables and pages.
+int run_all(const StudyOptions& options, const study::Study& study, const study::SlideRunner& runner) {
   const study::Shard shard = parse_shard(options.shard);
   const StopSignal stop;
   study::StudyResults files(options.folder, study, runner, shard);
@@ -175,7 +198,15 @@ int run(StudyOptions options) {
     warn(options.folder + ": " + std::to_string(files.outdated()) +
          " rows belong to other inputs or another version, and are not used");
   }
-  run_missing(options, study, runner, shard, files);
+  std::mutex rows_mutex;
+  const StudyReport report({.study = study,
+                            .runner = runner,
+                            .results = files,
+                            .rows_mutex = rows_mutex,
+                            .folder = options.folder,
+                            .command = "glissade study " + options.file + " --out " + options.folder});
+  const auto server = options.view_port ? open_pages(*options.view_port, report) : nullptr;
+  run_missing(options, study, runner, shard, files, rows_mutex);
   const std::string done = std::to_string(files.count()) + " of " + std::to_string(study.slides) + " slides are done";
   if (StopSignal::requested()) {
     say("glissade: stopped: " + done + "; the same command goes on");
@@ -185,7 +216,27 @@ int run(StudyOptions options) {
     std::cout << "shard " << options.shard << ": " << done << " in " << options.folder << '\n';
     return 0;
   }
-  tell(study, files.finish(), options.folder);
+  const study::StudyCounts counts = [&] {
+    const std::scoped_lock lock(rows_mutex);
+    return files.finish();
+  }();
+  report.write(StopSignal::requested);
+  tell(study, counts, options.folder);
+  constexpr std::chrono::milliseconds kPollPeriod{50};
+  while (server && !StopSignal::requested())
+    std::this_thread::sleep_for(kPollPeriod);
+  return 0;
+}
+
+int run(const StudyOptions& options) {
+  const study::Study study = study::read_study(options.file);
+  const study::SlideRunner runner(study);
+  if (options.is_worker) {
+    serve_slides([&](std::int64_t slide) { return study::json_of(study, runner.run(slide)); });
+    return 0;
+  }
+  if (!options.slide) return run_all(options, study, runner);
+  run_one(options, study, runner);
   return 0;
 }
 
@@ -208,7 +259,10 @@ void add_study_command(CLI::App& app, Command& chosen) {
   command->add_option("--longest-s", options->longest_s, "A slide that takes more seconds is given up")
       ->check(CLI::Range(kShortest_s, kLongest_s))
       ->capture_default_str();
-  command->add_option("--slide", options->slide, "Run this slide only, and print its row as JSON");
+  CLI::Option* slide = command->add_option("--slide", options->slide, "Run this slide only, and print its row as JSON");
+  command->add_option("--report", options->report, "Folder for a page, index.html, with the replay of the slide")
+      ->needs(slide);
+  add_view_option(*command, options->view_port)->excludes(slide);
   command->add_flag(WorkerProcess::kOption, options->is_worker)->group("");
   add_quiet_option(*command);
   command->callback([options, &chosen] {
@@ -216,7 +270,7 @@ void add_study_command(CLI::App& app, Command& chosen) {
       StudyOptions of_run = *options;
       if (of_run.folder.empty())
         of_run.folder = std::filesystem::path(of_run.file).replace_extension().string() + "_results";
-      return run(std::move(of_run));
+      return run(of_run);
     };
   });
 }

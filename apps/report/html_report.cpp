@@ -59,15 +59,25 @@ nlohmann::json plot_json(const Plot& plot) {
   return json;
 }
 
-/// What no page takes for the end of the element. Names of files may be no UTF-8.
+/// Data of the page. What no page takes for the end of the element.
+std::string json_element(const char* id, const std::string& json) {
+  std::string html = "<script type=\"application/json\" id=\"" + std::string(id) + "\">";
+  for (const char character : json) {
+    if (character == '<') {
+      html += "\\u003c";
+    } else {
+      html += character;
+    }
+  }
+  return html + "</script>\n";
+}
+
+/// Names of files may be no UTF-8.
 std::string plots_element(const Report& report) {
   nlohmann::json json = nlohmann::json::array();
   for (const Plot& plot : report.plots)
     json.push_back(plot_json(plot));
-  std::string html = "<script type=\"application/json\" id=\"report-plots\">";
-  for (const char character : json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace))
-    html += character == '<' ? std::string("\\u003c") : std::string(1, character);
-  return html + "</script>\n";
+  return json_element("report-plots", json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
 }
 
 /// Puts `text` in the place of the mark.
@@ -95,7 +105,9 @@ std::string data_element(const char* id, const std::string& bytes) {
 std::string html_report(const Report& report) {
   const std::string title = html_escaped(report.title);
   std::string content = "<div class=\"paper\">\n" + summary_table(report.summary) + to_html(report.table) +
-                        "<div id=\"plots\"></div>\n</div>\n" + plots_element(report);
+                        "<div id=\"study\"></div>\n<div id=\"plots\"></div>\n<div id=\"study-rows\"></div>\n</div>\n" +
+                        plots_element(report);
+  if (!report.study.empty()) content += json_element("report-study", report.study);
   if (report.replay) {
     content +=
         data_element("report-model", report.replay->model) + data_element("report-frames", report.replay->frames);

@@ -27,6 +27,7 @@ struct Report {
   std::vector<Plot> plots;
   ReportTable table{};             ///< below the summary
   std::optional<Replay> replay{};  ///< above the summary
+  std::string study{};             ///< data of a study as JSON, which the page draws in place of plots; may be empty
 };
 
 /// The page as HTML; texts are plain text and escaped here.

@@ -3,7 +3,6 @@
 #include <glissade/apps/view/session_view.h>
 #include <glissade/apps/view/slide_replay.h>
 #include <glissade/contact/spring.h>
-#include <glissade/reference/sliding_method.h>
 #include <glissade/viewer/view_simulation.h>
 
 namespace glissade::apps {
@@ -21,16 +20,17 @@ viewer::ViewScene slide_view_of(const HapticScene& scene) {
 SlideReplay::SlideReplay(const HapticScene& scene)
     : maker_(slide_view_of(scene)), part_({scene.parts.front().name}), patches_(scene.parts.front().part_V->radius()) {}
 
-void SlideReplay::add(std::chrono::nanoseconds time, const reference::SlidingSimulation& sliding) {
+void SlideReplay::add(std::chrono::nanoseconds time, const contact::SlidingResult& result,
+                      const Eigen::Vector3d& p_Vref, std::span<const Eigen::Isometry3d> scripted_X_WB) {
   devices::HapticState state;
   state.sequence = ++ticks_;
   state.time = time;
-  viewer::show_part(sliding.result(), sliding.part().p_Vref(), 0, patches_, state);
-  for (const Eigen::Isometry3d& X_WB : sliding.scripted_X_WB()) {
+  viewer::show_part(result, p_Vref, 0, patches_, state);
+  for (const Eigen::Isometry3d& X_WB : scripted_X_WB) {
     devices::HapticPartState& moving = state.parts[static_cast<std::size_t>(state.part_count++)];
     moving.X_WG = moving.X_WV = X_WB;
   }
-  const contact::Wrench wrench = contact::contact_wrench(sliding.result(), sliding.part().p_Vref());
+  const contact::Wrench wrench = contact::contact_wrench(result, p_Vref);
   state.hands[0].part = 0;
   state.hands[0].force_W = wrench.f;
   state.hands[0].torque_V_W = wrench.t;

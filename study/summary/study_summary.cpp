@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <tuple>
@@ -41,13 +42,15 @@ void StudySummary::add(const nlohmann::json& row) {
       values_[p].push_back(names_[p].try_emplace(value.get<std::string>(), next).first->second);
     }
   }
+  slides_.push_back(row.at("slide").get<std::int64_t>());
   success_.push_back(row.at("success").get<int>() == 1);
   ++outcomes_[row.at("outcome").get<std::string>()];
   problems_ += row.at("problem").is_null() ? 0 : 1;
   const bool has_force = row.contains("force_max_N") && row["force_max_N"].is_number();
   forces_.push_back(has_force ? row["force_max_N"].get<double>() : unknown);
   if (!row.contains("jam_objects") || row["jam_objects"].is_null()) return;
-  jams_.push_back({{row["jam_x_m"].get<double>(), row["jam_y_m"].get<double>(), row["jam_z_m"].get<double>()},
+  jams_.push_back({slides_.back(),
+                   {row["jam_x_m"].get<double>(), row["jam_y_m"].get<double>(), row["jam_z_m"].get<double>()},
                    row["jam_objects"].get<std::string>()});
 }
 
@@ -87,7 +90,7 @@ std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
 /// The share of the variance of success that the bins of the parameter explain: the first-order index of Sobol (1993),
 /// estimated by bins. Without effect, it is about (bins − 1) / slides.
 nlohmann::ordered_json StudySummary::sensitivity(std::size_t parameter) const {
-  const double mean = static_cast<double>(successes()) / static_cast<double>(rows());
+  const double mean = static_cast<double>(successes()) / static_cast<double>(std::max<std::int64_t>(1, rows()));
   double explained = 0.0;
   nlohmann::ordered_json json;
   json["name"] = study_.parameters[parameter].name;
@@ -126,34 +129,41 @@ nlohmann::ordered_json StudySummary::jams() const {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const Group& group : groups) {
     const Eigen::Vector3d mean = group.sum / static_cast<double>(group.count);
-    json.push_back(
-        {{"objects", group.first.objects}, {"slides", group.count}, {"mean_m", {mean.x(), mean.y(), mean.z()}}});
+    json.push_back({{"objects", group.first.objects},
+                    {"slides", group.count},
+                    {"mean_m", {mean.x(), mean.y(), mean.z()}},
+                    {"first_slide", group.first.slide}});
   }
   return json;
 }
 
 std::vector<std::int64_t> StudySummary::worst() const {
-  std::vector<std::int64_t> slides;
-  for (std::int64_t slide = 0; slide < rows(); ++slide) {
-    if (!std::isnan(forces_[static_cast<std::size_t>(slide)])) slides.push_back(slide);
+  std::vector<std::size_t> rows;
+  for (std::size_t row = 0; row < slides_.size(); ++row) {
+    if (!std::isnan(forces_[row])) rows.push_back(row);
   }
-  const auto force = [&](std::int64_t slide) { return forces_[static_cast<std::size_t>(slide)]; };
-  const std::size_t count = std::min(kMostWorst, slides.size());
-  std::partial_sort(slides.begin(), slides.begin() + static_cast<std::ptrdiff_t>(count), slides.end(),
-                    [&](std::int64_t a, std::int64_t b) { return std::pair(-force(a), a) < std::pair(-force(b), b); });
-  slides.resize(count);
+  const auto by_force = [&](std::size_t a, std::size_t b) {
+    return std::pair(-forces_[a], slides_[a]) < std::pair(-forces_[b], slides_[b]);
+  };
+  const auto end = rows.begin() + static_cast<std::ptrdiff_t>(std::min(kMostWorst, rows.size()));
+  std::partial_sort(rows.begin(), end, rows.end(), by_force);
+  std::vector<std::int64_t> slides;
+  std::transform(rows.begin(), end, std::back_inserter(slides), [&](std::size_t row) { return slides_[row]; });
   return slides;
 }
 
 nlohmann::ordered_json StudySummary::to_json() const {
-  const Rate rate = success_rate(successes(), rows());
   nlohmann::ordered_json json;
   json["slides"] = rows();
   json["successes"] = successes();
   json["problems"] = problems_;
-  json["success_rate"] = rate.share;
+  json["success_rate"] = nullptr;
   json["success_rate_95_percent"] = nullptr;  // the values of a grid are not random
-  if (study_.sampling != Sampling::kGrid) json["success_rate_95_percent"] = {rate.least, rate.greatest};
+  if (rows() > 0) {
+    const Rate rate = success_rate(successes(), rows());
+    json["success_rate"] = rate.share;
+    if (study_.sampling != Sampling::kGrid) json["success_rate_95_percent"] = {rate.least, rate.greatest};
+  }
   json["outcomes"] = outcomes_;
   std::vector<nlohmann::ordered_json> sensitivities;
   for (std::size_t p = 0; p < values_.size(); ++p)

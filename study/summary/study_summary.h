@@ -19,7 +19,7 @@ class StudySummary {
  public:
   explicit StudySummary(const Study& study);
 
-  /// Adds a row, as `json_of` made it.
+  /// Adds a row, as `json_of` made it. Slides may be missing.
   void add(const nlohmann::json& row);
 
   std::int64_t rows() const { return static_cast<std::int64_t>(success_.size()); }
@@ -37,6 +37,7 @@ class StudySummary {
     std::int64_t successes = 0;
   };
   struct Jam {
+    std::int64_t slide = 0;
     Eigen::Vector3d p_W;
     std::string objects;
   };
@@ -50,6 +51,7 @@ class StudySummary {
   double jam_distance_m_ = 0.0;
   std::vector<std::vector<double>> values_{};           // by parameter, then by row
   std::vector<std::map<std::string, double>> names_{};  // by parameter: numbers of values that are texts
+  std::vector<std::int64_t> slides_{};                  // by row
   std::vector<bool> success_{};
   std::vector<double> forces_{};  // not a number if unknown
   std::map<std::string, std::int64_t> outcomes_{};

@@ -16,15 +16,16 @@ using nlohmann::json;
 
 class Summary : public testing::Test {
  protected:
-  static json row(double x, const std::string& metaphor, bool success) {
-    return {{"path.x_m", x},
+  json row(double x, const std::string& metaphor, bool success) {
+    return {{"slide", next_slide_++},
+            {"path.x_m", x},
             {"metaphor", metaphor},
             {"success", success ? 1 : 0},
             {"outcome", success ? "success" : "jammed"},
             {"problem", nullptr},
             {"force_max_N", 1.0}};
   }
-  static json jam(double x, double y, const std::string& objects) {
+  json jam(double x, double y, const std::string& objects) {
     json jammed = row(0.0, "incremental", false);
     jammed.update({{"jam_objects", objects}, {"jam_x_m", x}, {"jam_y_m", y}, {"jam_z_m", 0.0}});
     return jammed;
@@ -37,6 +38,9 @@ class Summary : public testing::Test {
       "  - {vary: metaphor, one_of: [incremental, rubber-band]}\n"
       "slides: 100\n");
   StudySummary summary{study};
+
+ private:
+  int next_slide_ = 0;
 };
 
 /// Success is x < 0.4, whatever the metaphor.
@@ -82,6 +86,7 @@ TEST_F(Summary, JamsAtOnePlaceAreCountedTogether) {
   EXPECT_EQ(jams[0]["objects"], "left");
   EXPECT_EQ(jams[0]["slides"], 5);
   EXPECT_NEAR(jams[0]["mean_m"][0], 0.002, 1e-12);
+  EXPECT_EQ(jams[1]["first_slide"], 5);
 }
 
 TEST_F(Summary, TheGreatestForcesComeFirst) {
@@ -95,6 +100,18 @@ TEST_F(Summary, TheGreatestForcesComeFirst) {
   EXPECT_EQ(worst[0], 6);
   EXPECT_EQ(worst[1], 13);
   EXPECT_EQ(worst[2], 5);
+}
+
+TEST_F(Summary, SlidesMayBeMissing) {
+  EXPECT_TRUE(summary.to_json()["success_rate"].is_null()) << "no slide is there yet";
+  json first = row(0.0, "incremental", true);
+  first["slide"] = 40;
+  summary.add(first);
+  json second = row(1.0, "incremental", false);
+  second.update({{"slide", 70}, {"force_max_N", 9.0}});
+  summary.add(second);
+  EXPECT_EQ(summary.to_json()["greatest_forces"], nlohmann::ordered_json({70, 40}));
+  EXPECT_EQ(summary.to_json()["success_rate"], 0.5);
 }
 
 TEST_F(Summary, CountsOutcomesAndProblems) {

@@ -33,6 +33,10 @@ std::string_view view_of(beast::string_view text) {
 
 }  // namespace
 
+Content plain(http::status status, std::string_view text) {
+  return {status, "text/plain", std::make_shared<const std::string>(text)};
+}
+
 bool is_own_request(std::string_view host, std::string_view origin) {
   constexpr std::string_view kScheme = "http://";
   if (!origin.empty() && (!origin.starts_with(kScheme) || origin.substr(kScheme.size()) != host)) return false;
@@ -43,8 +47,8 @@ bool is_own_request(std::string_view host, std::string_view origin) {
   return is_number && (name == "127.0.0.1" || name == "localhost");
 }
 
-Connection::Connection(beast::tcp_stream&& stream, const Answers& answers, Upgrade upgrade)
-    : stream_(std::move(stream)), answers_(answers), upgrade_(std::move(upgrade)) {}
+Connection::Connection(beast::tcp_stream&& stream, const Answer& answer, Upgrade upgrade)
+    : stream_(std::move(stream)), answer_(answer), upgrade_(std::move(upgrade)) {}
 
 void Connection::read() {
   parser_.emplace();
@@ -56,7 +60,7 @@ void Connection::read() {
     if (!error) return self->answer();
     const beast::error_code end = http::error::end_of_stream;
     if (error == end || error.category() != end.category()) return;  // nobody waits for an answer
-    self->send(http::status::bad_request, "text/plain", "only GET without a body is known\n");
+    self->send(plain(http::status::bad_request, "only GET without a body is known\n"));
   });
 }
 
@@ -64,29 +68,21 @@ void Connection::answer() {
   const HttpRequest& request = parser_->get();
   const std::string_view whole_target = view_of(request.target());
   const std::string_view target = whole_target.substr(0, whole_target.find('?'));
-  const auto plain = [&](http::status status, std::string_view text) { send(status, "text/plain", text); };
   if (!is_own_request(view_of(request[http::field::host]), view_of(request[http::field::origin])))
-    return plain(http::status::forbidden, "only pages of this machine are served\n");
-  if (target == "/live" && beast::websocket::is_upgrade(request)) return upgrade_(std::move(stream_), request);
-  if (request.method() != http::verb::get) return plain(http::status::method_not_allowed, "only GET is known\n");
-  if (target == "/") return send(http::status::ok, "text/html; charset=utf-8", answers_.page);
-  constexpr std::string_view kModel = "model/gltf-binary";
-  if (target == "/model.glb") return send(http::status::ok, kModel, *answers_.first_model, answers_.first_model);
-  if (target == "/whole_model.glb") {
-    if (answers_.whole_model) return send(http::status::ok, kModel, *answers_.whole_model, answers_.whole_model);
-    return plain(http::status::accepted, "the model is being made\n");
-  }
-  plain(http::status::not_found, "there is no such page\n");
+    return send(plain(http::status::forbidden, "only pages of this machine are served\n"));
+  if (upgrade_ && target == "/live" && beast::websocket::is_upgrade(request))
+    return upgrade_(std::move(stream_), request);
+  if (request.method() != http::verb::get) return send(plain(http::status::method_not_allowed, "only GET is known\n"));
+  send(answer_(target));
 }
 
-void Connection::send(http::status status, std::string_view type, std::string_view content,
-                      std::shared_ptr<const std::string> owner) {
+void Connection::send(const Content& content) {
   using Response = http::response<http::span_body<const char>>;
-  const auto response = std::make_shared<Response>(status, parser_->get().version());
+  const auto response = std::make_shared<Response>(content.status, parser_->get().version());
   const auto put = [&](http::field field, std::string_view value) {
     response->set(field, beast::string_view(value.data(), value.size()));
   };
-  put(http::field::content_type, type);
+  put(http::field::content_type, content.type);
   put(http::field::cache_control, "no-store");
   const std::string_view host = view_of(parser_->get()[http::field::host]);
   if (is_own_request(host, "")) response->set("Content-Security-Policy", policy_for(host));
@@ -94,16 +90,15 @@ void Connection::send(http::status status, std::string_view type, std::string_vi
   response->set("X-Content-Type-Options", "nosniff");
   // After anything but a GET, what follows in the stream is unclear.
   response->keep_alive(parser_->get().keep_alive() && parser_->get().method() == http::verb::get &&
-                       status != http::status::bad_request);
-  response->body() = beast::span<const char>(content.data(), content.size());
+                       content.status != http::status::bad_request);
+  response->body() = beast::span<const char>(content.text->data(), content.text->size());
   response->prepare_payload();
   stream_.expires_after(kPatienceForReader);
-  http::async_write(
-      stream_, *response,
-      [self = shared_from_this(), response, owner = std::move(owner)](beast::error_code error, std::size_t) {
-        if (error || !response->keep_alive()) return;
-        self->read();
-      });
+  http::async_write(stream_, *response,
+                    [self = shared_from_this(), response, owner = content.text](beast::error_code error, std::size_t) {
+                      if (error || !response->keep_alive()) return;
+                      self->read();
+                    });
 }
 
 }  // namespace glissade::viewer

@@ -13,22 +13,28 @@
 
 namespace glissade::viewer {
 
-/// What a server has to offer.
-struct Answers {
-  std::string_view page;
-  std::shared_ptr<const std::string> first_model;
-  std::shared_ptr<const std::string> whole_model;  ///< null until it has been made
+/// What a server says to a GET.
+struct Content {
+  boost::beast::http::status status = boost::beast::http::status::ok;
+  std::string_view type;  ///< as in the header Content-Type
+  std::shared_ptr<const std::string> text;
 };
+
+/// A sentence for people.
+Content plain(boost::beast::http::status status, std::string_view text);
+
+/// Gets what a GET asks for, without its query.
+using Answer = std::function<Content(std::string_view target)>;
 
 using HttpRequest = boost::beast::http::request<boost::beast::http::empty_body>;
 
-/// All calls in the thread of the stream's io_context; `answers` must outlive the connection.
+/// All calls in the thread of the stream's io_context; `answer` must outlive the connection.
 class Connection : public std::enable_shared_from_this<Connection> {
  public:
-  /// Gets the stream after a request for the WebSocket `/live`.
+  /// Gets the stream after a request for the WebSocket `/live`. Empty: the server has none.
   using Upgrade = std::function<void(boost::beast::tcp_stream&&, const HttpRequest&)>;
 
-  Connection(boost::beast::tcp_stream&& stream, const Answers& answers, Upgrade upgrade);
+  Connection(boost::beast::tcp_stream&& stream, const Answer& answer, Upgrade upgrade);
 
   void start() { read(); }
   /// Whether it waits for a request, the first one or another.
@@ -38,11 +44,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
  private:
   void read();
   void answer();
-  void send(boost::beast::http::status status, std::string_view type, std::string_view content,
-            std::shared_ptr<const std::string> owner = nullptr);
+  void send(const Content& content);
 
   boost::beast::tcp_stream stream_;
-  const Answers& answers_;
+  const Answer& answer_;
   Upgrade upgrade_;
   bool is_idle_ = true;
   boost::beast::flat_buffer buffer_;

@@ -226,6 +226,25 @@ TEST_F(StudyCommand, ASlideThatTakesTooLongIsAProblem) {
   expect_refused({"study", study, "--longest-s", "1e10"}, {"--longest-s"});
 }
 
+TEST_F(StudyCommand, ThePageHasTheRowsAndItsNotableSlidesHaveReplays) {
+  table_of("out");
+  EXPECT_THAT(read_text_file(folder.path("out/index.html")), HasSubstr("id=\"report-study\""));
+  const nlohmann::json summary = nlohmann::json::parse(read_text_file(folder.path("out/study.json")));
+  for (const auto& slide : summary["greatest_forces"]) {
+    const std::string page = read_text_file(folder.path("out/slides/" + slide.dump() + "/index.html"));
+    EXPECT_THAT(page, HasSubstr("<title>Slide " + slide.dump() + " of study</title>"));
+    EXPECT_THAT(page, HasSubstr("id=\"report-frames\""));
+  }
+}
+
+TEST_F(StudyCommand, AnImpossibleSlideHasAPageWithoutAReplay) {
+  folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0.006,0,-0.002,1,0,0,0\n0.05,0,0,-0.003,1,0,0,0\n");
+  EXPECT_EQ(glissade({"study", study, "--slide", "0", "--report", folder.path("slide")}).exit_code, 0);
+  const std::string page = read_text_file(folder.path("slide/index.html"));
+  EXPECT_THAT(page, HasSubstr("problem"));
+  EXPECT_THAT(page, Not(HasSubstr("id=\"report-frames\"")));
+}
+
 TEST_F(StudyCommand, OneSlideIsPrintedAsItsRow) {
   table_of("out");
   const ProgramResult result = glissade({"study", study, "--slide", "7"});
@@ -237,6 +256,7 @@ TEST_F(StudyCommand, WrongUsageIsRefused) {
   expect_refused({"study", folder.path("none.yaml")}, {"none.yaml"});
   expect_refused({"study", study, "--shard", "4/4"}, {"--shard", "PART < PARTS"});
   expect_refused({"study", study, "--shard", "x"}, {"--shard", "'x'"});
+  expect_refused({"study", study, "--report", folder.path("page")}, {"--report", "--slide"});
   expect_refused({"study", study, "--out", study}, {"study.yaml"});
   std::filesystem::create_directories(folder.path("out/slides.journal.jsonl"));
   expect_refused({"study", study, "--out", folder.path("out")}, {"slides.journal.jsonl"});

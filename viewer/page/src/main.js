@@ -1,14 +1,14 @@
 import './language.js';
 import { Connection } from './connection.js';
 import { Controls } from './controls.js';
+import { byId } from './dom.js';
 import { parseModel } from './model.js';
 import { isReport, makeTablesSortable, replayData, ReportPlots } from './report.js';
 import { Stage } from './stage.js';
 import { rowsOf, rowsOfObject, showRows } from './status.js';
 import { Strips } from './strips.js';
+import { followStudy, studyData } from './study.js';
 import { Timeline } from './timeline.js';
-
-const byId = (id) => document.getElementById(id);
 
 class Page {
   constructor(timeline) {
@@ -72,11 +72,14 @@ function say(text) {
 
 async function showReport() {
   document.body.classList.add('report');
+  say('');
   makeTablesSortable();
   const replay = replayData();
   const timeline = new Timeline(replay?.frames);
   const plots = new ReportPlots(timeline); // also where there is no WebGL for the rest
   byId('viewer').hidden = !replay;
+  const study = studyData();
+  if (study) followStudy(study, plots, say);
   if (!replay) return undefined;
   const page = new Page(timeline);
   page.plots = plots;

@@ -3,9 +3,8 @@
 import uPlot from 'uplot';
 import { Charts } from './charts.js';
 import { cssColor, lineColor } from './colors.js';
+import { append, byId } from './dom.js';
 import { decodeFrames } from './frame.js';
-
-const byId = (id) => document.getElementById(id);
 
 function bytesOf(id) {
   const text = atob(byId(id).textContent.trim());
@@ -24,12 +23,6 @@ export function replayData() {
     wholeModel: byId('report-whole-model') ? bytesOf('report-whole-model') : undefined,
     frames: decodeFrames(bytesOf('report-frames')),
   };
-}
-
-function append(parent, tag, text = '') {
-  const element = Object.assign(document.createElement(tag), { textContent: text });
-  parent.append(element);
-  return element;
 }
 
 // What is nothing to a hand, a millionth of a newton, a millimetre or a degree, is flat, as is noise of rounding. A flat
@@ -169,6 +162,11 @@ export class ReportPlots {
     // Lines may have values at different times: where one has none, it goes on to its next.
     const data = uPlot.join(plot.series.map(({ x, y }) => [x, y]));
     this.charts.add(append(section, 'div'), data, { ...optionsOf(plot), ...(hasWords ? optionsOfStrips(plot) : optionsOfCurves(plot)) });
+  }
+
+  clear() {
+    this.charts.clear();
+    byId('plots').replaceChildren();
   }
 
   show() {

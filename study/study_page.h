@@ -1,0 +1,41 @@
+#pragma once
+
+/// What the report of a study shows.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <glissade/study/study.h>
+
+namespace glissade::study {
+
+/// Collects the rows of a study for its page. Memory: some 200 bytes for each of the rows on the page, and what a
+/// summary needs for the others.
+class StudyPage {
+ public:
+  /// A page has a row for each slide. Of more than `most_rows` slides, it has each second one, each third one, and so
+  /// on.
+  explicit StudyPage(const Study& study, std::int64_t most_rows = 100'000);
+  ~StudyPage();
+
+  /// Adds a row, as `json_of` made it. Rows come in the order of the slides; some may be missing.
+  void add(const std::string& json);
+
+  /// The slides that one wants to see first: those with the greatest forces, and one for each of the places where most
+  /// slides jam.
+  std::vector<std::int64_t> notable_slides() const;
+
+  /// The data of the page, as JSON. `replays` are the slides that have a page of their own beside it. `command` is the
+  /// command that has run the study.
+  std::string to_json(const std::vector<std::int64_t>& replays, const std::string& command) const;
+
+ private:
+  struct Table;
+
+  const Study& study_;
+  std::unique_ptr<Table> table_;
+};
+
+}  // namespace glissade::study
