@@ -4,6 +4,7 @@
 /// slides can run in any order and on any machine.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include <glissade/study/study.h>
@@ -22,6 +23,7 @@ class Sampler {
   /// - `kLatinHypercube`: each parameter has one value in each of as many equally likely intervals as there are slides
   ///   (McKay, Beckman and Conover 1979).
   /// - `kSobol`: points of a Sobol sequence (direction numbers of Joe and Kuo) with a random digital shift.
+  /// - `kStratified`: independent, each in the stratum of the slide.
   /// - `kGrid`: all combinations. The last parameter changes from slide to slide.
   std::vector<double> values(std::int64_t number) const;
 
@@ -35,8 +37,9 @@ class Sampler {
   Sampling sampling_;
   std::int64_t slides_;
   std::uint64_t seed_;
-  std::vector<std::vector<std::uint32_t>> strata_{};  // of the Latin hypercube: by parameter, then by slide
-  std::vector<std::uint64_t> shifts_{};               // of the Sobol sequence, by parameter
+  std::shared_ptr<const Strata> strata_;
+  std::vector<std::vector<std::uint32_t>> hypercube_{};  // by parameter, then by slide
+  std::vector<std::uint64_t> shifts_{};                  // of the Sobol sequence, by parameter
 };
 
 }  // namespace glissade::study

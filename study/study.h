@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -16,6 +17,7 @@
 #include <glissade/geometry/pose_trajectory.h>
 #include <glissade/simulation/scene.h>
 #include <glissade/study/distribution.h>
+#include <glissade/study/strata.h>
 
 namespace glissade::study {
 
@@ -57,8 +59,9 @@ struct Parameter {
   std::vector<simulation::SceneMesh> meshes{};  ///< for `kMesh`, by index of `OneOf`
 };
 
-enum class Sampling : std::uint8_t { kRandom, kLatinHypercube, kSobol, kGrid };
-inline constexpr std::array<std::string_view, 4> kSamplingNames{"random", "latin-hypercube", "sobol", "grid"};
+enum class Sampling : std::uint8_t { kRandom, kLatinHypercube, kSobol, kStratified, kGrid };
+inline constexpr std::array<std::string_view, 5> kSamplingNames{"random", "latin-hypercube", "sobol", "stratified",
+                                                                "grid"};
 
 /// What counts as success. The part must end near the goal. The other limits must hold during the whole slide.
 struct Success {
@@ -84,6 +87,7 @@ struct Study {
   Sampling sampling = Sampling::kSobol;
   std::int64_t slides = 0;
   std::uint64_t seed = 1;
+  std::shared_ptr<const Strata> strata{};  ///< for `kStratified`
   Success success{};
   contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;
   double stiffness_N_per_m = contact::kUsualStiffness_N_per_m;

@@ -206,7 +206,7 @@ StudyCounts StudyResults::finish() {
   places_ = std::move(places);
   paths_ = {folder_ / kRows};
   reading_ = -1;
-  return {summary.rows(), summary.successes(), summary.problems()};
+  return {summary.rows(), summary.successes(), summary.problems(), *summary.rate()};
 }
 
 }  // namespace glissade::study

@@ -12,6 +12,7 @@
 
 #include <glissade/study/slide_runner.h>
 #include <glissade/study/study.h>
+#include <glissade/study/success_rate.h>
 
 namespace glissade::study {
 
@@ -28,6 +29,7 @@ struct StudyCounts {
   std::int64_t rows = 0;
   std::int64_t successes = 0;
   std::int64_t problems = 0;
+  Rate rate{};  ///< success rate; its interval is without meaning for a grid
 };
 
 /// Not thread-safe. Memory: 16 bytes for each slide.

@@ -26,7 +26,6 @@
 #include <glissade/study/slide_runner.h>
 #include <glissade/study/study.h>
 #include <glissade/study/study_results.h>
-#include <glissade/study/success_rate.h>
 
 namespace glissade::apps {
 
@@ -156,8 +155,10 @@ std::string percent(double share) {
 }
 
 void tell(const study::Study& study, const study::StudyCounts& counts, const std::string& folder) {
-  const study::Rate rate = study::success_rate(counts.successes, counts.rows);
-  std::cout << counts.successes << " of " << counts.rows << " slides succeed: " << percent(rate.share);
+  const study::Rate& rate = counts.rate;
+  std::cout << counts.successes << " of " << counts.rows << " slides succeed: ";
+  if (study.strata != nullptr) std::cout << "with the weights of " << study.strata->all().size() << " strata, ";
+  std::cout << percent(rate.share);
   if (study.sampling != study::Sampling::kGrid)
     std::cout << " (95 % interval: " << percent(rate.least) << " to " << percent(rate.greatest) << ')';
   if (counts.problems > 0) std::cout << "; " << counts.problems << " could not be run, see the column 'problem'";

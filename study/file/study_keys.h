@@ -7,8 +7,9 @@
 
 namespace glissade::study {
 
-inline constexpr std::array<std::string_view, 10> kStudyKeys{"scene",  "part", "trajectory", "parameters", "sampling",
-                                                             "slides", "seed", "success",    "sliding",    "record"};
+inline constexpr std::array<std::string_view, 12> kStudyKeys{"scene",    "part",    "trajectory", "parameters",
+                                                             "sampling", "pilot",   "slides",     "half_width",
+                                                             "seed",     "success", "sliding",    "record"};
 inline constexpr std::array<std::string_view, 4> kDistributionKeys{"uniform", "normal", "triangular", "one_of"};
 inline constexpr std::array<std::string_view, 8> kParameterKeys{"name",       "vary",   "uniform", "normal",
                                                                 "triangular", "one_of", "within",  "steps"};

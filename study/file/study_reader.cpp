@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <set>
 #include <span>
@@ -15,6 +16,7 @@
 #include <glissade/study/slide_row.h>
 #include <glissade/study/study.h>
 
+#include "file/pilot_reader.h"
 #include "file/study_keys.h"
 #include "file/target_reader.h"
 
@@ -25,6 +27,8 @@ using files::in_quotes;
 
 constexpr std::uintmax_t kLargestStudyFile = std::uintmax_t{1} << 24U;
 constexpr double kMostSlides = 1e8;
+constexpr double kLeastHalfWidth = 1e-4;  // of the interval of a rate
+constexpr double kGreatestHalfWidth = 0.5;
 constexpr double kLargestValue = 1e9;                // as coordinates
 constexpr double kLargestSeed = 9007199254740992.0;  // all whole numbers up to it are doubles
 
@@ -43,8 +47,8 @@ class StudyReader {
     if (root["sampling"])
       study_.sampling = static_cast<Sampling>(index_of(root["sampling"], "sampling", kSamplingNames));
     read_parameters(root);
-    read_slides(root);
     if (root["seed"]) study_.seed = static_cast<std::uint64_t>(whole(root["seed"], "seed", 0.0, kLargestSeed));
+    read_slides(root);
     if (root["success"]) read_success(root["success"]);
     if (root["sliding"]) read_sliding(root["sliding"]);
     read_record(root["record"]);
@@ -289,7 +293,48 @@ class StudyReader {
       yaml_.fail(node, "a grid needs bounds: give 'within' for 'normal'");
   }
 
+  /// The strata of the pilot.
+  std::vector<Stratum> read_strata(const YAML::Node& pilot) const {
+    std::vector<Distribution> distributions;
+    for (const Parameter& parameter : study_.parameters)
+      distributions.push_back(parameter.distribution);
+    try {
+      return make_strata(distributions, read_pilot(full_path(yaml_.text(pilot, "pilot")), study_.parameters));
+    } catch (const std::invalid_argument& error) {
+      yaml_.fail(pilot, std::string("pilot: ") + error.what());
+    }
+  }
+
+  /// The number of slides that the interval needs.
+  std::int64_t read_half_width(const YAML::Node& node, const std::vector<Stratum>& strata) const {
+    const double half_width = yaml_.number(node, "half_width");
+    if (!(half_width >= kLeastHalfWidth && half_width < kGreatestHalfWidth)) {
+      yaml_.fail(node, "half_width: must lie between " + files::format_number(kLeastHalfWidth) + " and " +
+                           files::format_number(kGreatestHalfWidth) + ", not " + in_quotes(node.Scalar()));
+    }
+    return slides_for(strata, half_width);
+  }
+
+  void read_stratified(const YAML::Node& root) {
+    std::vector<Stratum> strata = read_strata(yaml_.required(root, "stratified study", "pilot"));
+    const YAML::Node slides = root["slides"];
+    const YAML::Node half_width = root["half_width"];
+    if (!slides == !half_width) yaml_.fail(root, "a stratified study needs either 'slides' or 'half_width'");
+    study_.slides = slides ? static_cast<std::int64_t>(whole(slides, "slides", 1.0, kMostSlides))
+                           : read_half_width(half_width, strata);
+    try {
+      study_.strata = std::make_shared<const Strata>(std::move(strata), study_.slides, study_.seed);
+    } catch (const std::invalid_argument& error) {
+      yaml_.fail(slides, std::string("slides: ") + error.what());
+    }
+  }
+
   void read_slides(const YAML::Node& root) {
+    for (const char* key : {"pilot", "half_width"}) {
+      if (root[key] && study_.sampling != Sampling::kStratified)
+        yaml_.fail(root[key], std::string(key) + ": is for 'sampling: stratified'");
+    }
+    if (study_.sampling == Sampling::kStratified) return read_stratified(root);
     if (study_.sampling != Sampling::kGrid) {
       study_.slides =
           static_cast<std::int64_t>(whole(yaml_.required(root, "study", "slides"), "slides", 1.0, kMostSlides));

@@ -9,7 +9,6 @@
 
 #include <glissade/files/text.h>
 #include <glissade/geometry/triangle_mesh.h>
-#include <glissade/study/success_rate.h>
 
 namespace glissade::study {
 namespace {
@@ -58,30 +57,58 @@ std::int64_t StudySummary::successes() const {
   return std::count(success_.begin(), success_.end(), true);
 }
 
-/// Each text or number of a list is a bin. Other values are divided into bins of as many slides.
+/// The slides of a stratified study stand for unequal shares of all values.
+double StudySummary::weight_of(std::size_t row) const {
+  return study_.strata != nullptr ? study_.strata->weight_of(slides_[row]) : 1.0;
+}
+
+/// No value as long as a stratum has no slide.
+std::optional<Rate> StudySummary::rate() const {
+  if (rows() == 0) return std::nullopt;
+  if (study_.strata == nullptr) return success_rate(successes(), rows());
+  std::vector<StratumCount> counts;
+  for (const Stratum& stratum : study_.strata->all())
+    counts.push_back({stratum.weight});
+  for (std::size_t row = 0; row < slides_.size(); ++row) {
+    StratumCount& count = counts[study_.strata->index_of(slides_[row])];
+    ++count.slides;
+    count.successes += success_[row] ? 1 : 0;
+  }
+  if (std::any_of(counts.begin(), counts.end(), [](const StratumCount& count) { return count.slides == 0; }))
+    return std::nullopt;
+  return stratified_rate(counts);
+}
+
+/// Each text or number of a list is a bin. Other values are divided into bins of the same weight.
 std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
   const std::vector<double>& values = values_[parameter];
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   const bool is_list = study_.parameters[parameter].distribution.as_one_of() != nullptr;
+  const double all = std::accumulate(order.begin(), order.end(), 0.0,
+                                     [&](double sum, std::size_t row) { return sum + weight_of(row); });
+  constexpr double kRounding = 1e-9;
   std::vector<Bin> bins;
-  std::size_t begin = 0;
-  while (begin < order.size()) {
-    std::size_t end = std::max(begin + 1, (bins.size() + 1) * order.size() / kBins);
-    if (is_list) end = begin + 1;
-    // Equal values are in one bin.
-    while (end < order.size() && values[order[end]] == values[order[end - 1]])
-      ++end;
+  double before = 0.0;  // weight of the slides so far
+  for (std::size_t i = 0; i < order.size();) {
+    const std::size_t begin = i;
+    const double end = static_cast<double>(bins.size() + 1) * all / static_cast<double>(kBins) * (1.0 + kRounding);
     Bin& bin = bins.emplace_back();
+    // Equal values are in one bin.
+    while (i < order.size() && (i == begin || values[order[i]] == values[order[i - 1]] ||
+                                (!is_list && before + weight_of(order[i]) <= end))) {
+      const double weight = weight_of(order[i]);
+      before += weight;
+      bin.weight += weight;
+      bin.success_weight += success_[order[i]] ? weight : 0.0;
+      ++i;
+    }
+    bin.slides = static_cast<std::int64_t>(i - begin);
     bin.values = files::format_number(values[order[begin]]);
-    if (!is_list) bin.values += " to " + files::format_number(values[order[end - 1]]);
+    if (!is_list) bin.values += " to " + files::format_number(values[order[i - 1]]);
     for (const auto& [name, number] : names_[parameter]) {
       if (number == values[order[begin]]) bin.values = name;
-    }
-    for (; begin < end; ++begin) {
-      ++bin.slides;
-      bin.successes += success_[order[begin]] ? 1 : 0;
     }
   }
   return bins;
@@ -89,19 +116,20 @@ std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
 
 /// The share of the variance of success that the bins of the parameter explain: the first-order index of Sobol (1993),
 /// estimated by bins. Without effect, it is about (bins − 1) / slides.
-nlohmann::ordered_json StudySummary::sensitivity(std::size_t parameter) const {
-  const double mean = static_cast<double>(successes()) / static_cast<double>(std::max<std::int64_t>(1, rows()));
+nlohmann::ordered_json StudySummary::sensitivity(std::size_t parameter, double mean) const {
   double explained = 0.0;
+  double all = 0.0;
   nlohmann::ordered_json json;
   json["name"] = study_.parameters[parameter].name;
   json["share_of_variance"] = 0.0;
   json["bins"] = nlohmann::ordered_json::array();
   for (const Bin& bin : bins(parameter)) {
-    const double rate = static_cast<double>(bin.successes) / static_cast<double>(bin.slides);
-    explained += static_cast<double>(bin.slides) / static_cast<double>(rows()) * (rate - mean) * (rate - mean);
+    const double rate = bin.success_weight / bin.weight;
+    explained += bin.weight * (rate - mean) * (rate - mean);
+    all += bin.weight;
     json["bins"].push_back({{"values", bin.values}, {"slides", bin.slides}, {"success_rate", rate}});
   }
-  if (mean > 0.0 && mean < 1.0) json["share_of_variance"] = explained / (mean * (1.0 - mean));
+  if (mean > 0.0 && mean < 1.0) json["share_of_variance"] = explained / all / (mean * (1.0 - mean));
   return json;
 }
 
@@ -159,15 +187,16 @@ nlohmann::ordered_json StudySummary::to_json() const {
   json["problems"] = problems_;
   json["success_rate"] = nullptr;
   json["success_rate_95_percent"] = nullptr;  // the values of a grid are not random
-  if (rows() > 0) {
-    const Rate rate = success_rate(successes(), rows());
-    json["success_rate"] = rate.share;
-    if (study_.sampling != Sampling::kGrid) json["success_rate_95_percent"] = {rate.least, rate.greatest};
+  const std::optional<Rate> of_all = rate();
+  if (of_all) json["success_rate"] = of_all->share;
+  if (of_all && study_.sampling != Sampling::kGrid) {
+    json["success_rate_95_percent"] = {of_all->least, of_all->greatest};
   }
+  if (study_.strata != nullptr) json["strata"] = study_.strata->all().size();
   json["outcomes"] = outcomes_;
   std::vector<nlohmann::ordered_json> sensitivities;
   for (std::size_t p = 0; p < values_.size(); ++p)
-    sensitivities.push_back(sensitivity(p));
+    sensitivities.push_back(sensitivity(p, of_all ? of_all->share : 0.0));
   std::stable_sort(sensitivities.begin(), sensitivities.end(), [](const auto& a, const auto& b) {
     return a.at("share_of_variance").template get<double>() > b.at("share_of_variance").template get<double>();
   });

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,7 @@
 #include <nlohmann/json.hpp>
 
 #include <glissade/study/study.h>
+#include <glissade/study/success_rate.h>
 
 namespace glissade::study {
 
@@ -26,6 +28,9 @@ class StudySummary {
   std::int64_t successes() const;
   std::int64_t problems() const { return problems_; }
 
+  /// The success rate, if each stratum has slides.
+  std::optional<Rate> rate() const;
+
   /// The numbers of study.json, see docs/studies.md.
   nlohmann::ordered_json to_json() const;
 
@@ -34,7 +39,8 @@ class StudySummary {
   struct Bin {
     std::string values{};
     std::int64_t slides = 0;
-    std::int64_t successes = 0;
+    double weight = 0.0;
+    double success_weight = 0.0;
   };
   struct Jam {
     std::int64_t slide = 0;
@@ -42,8 +48,9 @@ class StudySummary {
     std::string objects;
   };
 
+  double weight_of(std::size_t row) const;
   std::vector<Bin> bins(std::size_t parameter) const;
-  nlohmann::ordered_json sensitivity(std::size_t parameter) const;
+  nlohmann::ordered_json sensitivity(std::size_t parameter, double mean) const;
   nlohmann::ordered_json jams() const;
   std::vector<std::int64_t> worst() const;
 

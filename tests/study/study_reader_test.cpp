@@ -1,5 +1,6 @@
 /// Study files: what is read, and how deviations are told.
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -116,6 +117,48 @@ TEST(StudyReader, DeviationsAreToldWithTheirLine) {
       EXPECT_THAT(error.what(), HasSubstr(wrong.message)) << wrong.lines;
     }
   }
+}
+
+TEST(StudyReader, APilotGivesTheStrata) {
+  const StudyFolder folder;
+  std::string rows;
+  for (int i = 0; i < 40; ++i) {
+    rows += "{\"slide\":" + std::to_string(i) + ",\"path.x_m\":" + std::to_string(0.0001 * i) +
+            ",\"metaphor\":\"rubber-band\",\"success\":" + (i < 10 ? "1" : "0") + ",\"outcome\":\"" +
+            (i == 39 ? "not run" : "success") + "\"}\n";
+  }
+  std::filesystem::create_directories(folder.folder().path("pilot"));
+  folder.folder().write("pilot/slides.jsonl", rows);
+  const std::string parameters =
+      "sampling: stratified\npilot: pilot\nparameters:\n"
+      "  - {vary: path.x_m, uniform: [0, 0.004]}\n"
+      "  - {vary: metaphor, one_of: [incremental, rubber-band]}\n";
+  const Study study = folder.read(parameters + "slides: 100\n");
+  ASSERT_EQ(study.strata->all().size(), 3U) << "a quarter with success, a quarter and a half without";
+  EXPECT_DOUBLE_EQ(study.strata->all()[0].upper[0], 0.25);
+  EXPECT_EQ(study.slides, 100);
+  const double wide = static_cast<double>(folder.read(parameters + "half_width: 0.02\n").slides);
+  EXPECT_NEAR(static_cast<double>(folder.read(parameters + "half_width: 0.01\n").slides), 4.0 * wide, 4.0);
+
+  const auto refusal = [&](const std::string& lines) -> std::string {
+    try {
+      folder.read(lines);
+      return "";
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+  };
+  EXPECT_THAT(refusal(parameters), HasSubstr("either 'slides' or 'half_width'"));
+  EXPECT_THAT(refusal(parameters + "slides: 5\n"),
+              HasSubstr("slides: the pilot gives 3 strata, which need at least 6"));
+  EXPECT_THAT(refusal(parameters + "half_width: 0.7\n"), HasSubstr("not '0.7'"));
+  const std::string friction = "slides: 9\nparameters: [{vary: friction, uniform: [0, 1]}]\n";
+  EXPECT_THAT(refusal("sampling: stratified\n" + friction), HasSubstr("'pilot'"));
+  EXPECT_THAT(refusal("pilot: pilot\n" + friction), HasSubstr("study.yaml:4: pilot: is for 'sampling: stratified'"));
+  EXPECT_THAT(refusal("sampling: stratified\npilot: pilot\n" + friction),
+              HasSubstr("slides.jsonl:1: has no value of the parameter 'friction'"));
+  EXPECT_THAT(refusal("sampling: stratified\npilot: none\n" + friction),
+              HasSubstr("none/slides.jsonl: cannot be read"));
 }
 
 TEST(StudyReader, MissingFilesAndPartsAreTold) {

@@ -226,6 +226,32 @@ TEST_F(StudyCommand, ASlideThatTakesTooLongIsAProblem) {
   expect_refused({"study", study, "--longest-s", "1e10"}, {"--longest-s"});
 }
 
+TEST_F(StudyCommand, APilotMakesTheIntervalOfTheStudyNarrower) {
+  table_of("pilot");
+  const auto write = [&](const std::string& slides) {
+    study = folder.write("stratified.yaml",
+                         "scene: scene.yaml\npart: peg\ntrajectory: path.csv\n"
+                         "parameters: [{vary: path.x_m, uniform: [-0.002, 0.002]}]\n"
+                         "success: {distance_m: 0.003}\nsampling: stratified\npilot: pilot\n" +
+                             slides);
+  };
+  write("slides: 60\n");
+  const std::string table = table_of("one", {"--workers", "1"});
+  EXPECT_EQ(table_of("three", {"--workers", "3"}), table);
+  const auto width_of = [&](const std::string& out) {
+    const auto summary = nlohmann::json::parse(read_text_file(folder.path(out + "/study.json")));
+    const auto& interval = summary["success_rate_95_percent"];
+    EXPECT_LE(interval[0], summary["success_rate"]);
+    EXPECT_GE(interval[1], summary["success_rate"]);
+    return interval[1].get<double>() - interval[0].get<double>();
+  };
+  EXPECT_LT(width_of("one"), 0.7 * width_of("pilot")) << "with as many slides";
+  write("half_width: 0.03\n");
+  table_of("wide");
+  EXPECT_LE(width_of("wide"), 2.0 * 0.03);
+  EXPECT_GE(width_of("wide"), 0.03) << "not many more slides than necessary";
+}
+
 TEST_F(StudyCommand, ThePageHasTheRowsAndItsNotableSlidesHaveReplays) {
   table_of("out");
   EXPECT_THAT(read_text_file(folder.path("out/index.html")), HasSubstr("id=\"report-study\""));

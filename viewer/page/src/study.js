@@ -78,12 +78,16 @@ function section(title, place = 'study') {
   return element;
 }
 
+// Strata without slides have no rate yet.
+const rateOf = ({ success_rate: rate }) => (rate === null ? 'unknown rate' : percent(rate));
+
 function addRate(summary, isComplete, total) {
   const element = section('Success');
   const interval = summary.success_rate_95_percent;
   const range = interval ? ` (95 % interval: ${percent(interval[0])} to ${percent(interval[1])})` : '';
+  const weighted = summary.strata ? `, with the weights of ${summary.strata} strata` : '';
   const of = isComplete ? `${summary.slides} slides` : `the ${summary.slides} slides that are done, of ${total}`;
-  append(element, 'p', `${percent(summary.success_rate)}${range}: ${summary.successes} of ${of} succeed.`, 'rate');
+  append(element, 'p', `${rateOf(summary)}${range}: ${summary.successes} of ${of} succeed${weighted}.`, 'rate');
   const track = append(element, 'div', '', 'track');
   const [least, greatest] = interval ?? [summary.success_rate, summary.success_rate];
   addBar(track, least, greatest, summary.success_rate);
