@@ -29,6 +29,8 @@ setup(
     description="Exact collision of triangle soups, sliding contact, grasping hands, and forces for gloves",
     python_requires=">=3.9",
     install_requires=["numpy"],
+    extras_require={"fleet": ["distributed"]},
+    entry_points={"console_scripts": ["glissade-fleet = glissade.fleet:main"]},
     packages=["glissade"],
     package_data={"glissade": ["py.typed", "*.pyi"]},
     ext_modules=[Extension("glissade._glissade", sources=[])],

@@ -1,4 +1,4 @@
-"""Runs an assembly study on a Dask cluster: python3 -m glissade.fleet STUDY [--scheduler ADDRESS].
+"""Runs an assembly study on a Dask cluster: glissade-fleet STUDY [--scheduler ADDRESS].
 
 Needs Debian's python3-distributed. The controller keeps the folder of results, and gives batches of slides to the workers.
 Each worker reads the study once, by the same path as the controller. Rows depend on their number only, so the tables are
@@ -12,6 +12,7 @@ import collections
 import functools
 import hashlib
 import json
+import math
 import pathlib
 import socket
 import sys
@@ -22,10 +23,20 @@ from distributed.scheduler import KilledWorker
 
 import glissade
 
-BATCH_S = 2.0  # a batch takes so long: the scheduler's millisecond for each is then a two-thousandth
+BATCH_S = 2.0  # a batch takes at least so long, so that the cost of a batch is nothing beside it
+BATCH_COST_S = 3e-3  # of processor time of scheduler and controller for a batch, see bench/study/fleet_scaling.py
+BUSY = 0.25  # share of the time for which many workers may keep scheduler and controller busy
+LEAST_SHARE = 8  # the last batches are so many times smaller
 BATCHES_AHEAD = 3  # of a worker, so that it never waits for the controller
 LONGEST_BATCH = 10_000
 LOST_S = 60.0  # a scheduler that comes back within this time is waited for
+
+
+def batch_size(slides_left: int, slide_s: float, cores: int) -> int:
+    """The slides of the next batch: more for more workers, and fewer at the end, so that all workers end together."""
+    batch = max(BATCH_S, cores * BATCH_COST_S / BUSY) / slide_s
+    at_the_end = max(slides_left / (2 * cores), batch / LEAST_SHARE)  # guided self-scheduling (Polychronopoulos, Kuck 1987)
+    return max(1, min(LONGEST_BATCH, int(batch), math.ceil(at_the_end)))
 
 
 def fingerprint_of(path: str, study: glissade.Study) -> str:
@@ -105,9 +116,9 @@ class Fleet:
             self._submit(client, finished)
 
     def _submit(self, client: distributed.Client, finished: distributed.as_completed) -> None:
-        wanted = BATCHES_AHEAD * max(1, sum(client.nthreads().values()))
-        while len(self.running) < wanted:
-            slides = self._next_batch()
+        cores = max(1, sum(client.nthreads().values()))
+        while len(self.running) < BATCHES_AHEAD * cores:
+            slides = self._next_batch(cores)
             if not slides:
                 return
             # The same batch may be tried again, so results are not shared by the names of tasks.
@@ -115,11 +126,11 @@ class Fleet:
             self.running[future] = slides
             finished.add(future)
 
-    def _next_batch(self) -> list[int]:
+    def _next_batch(self, cores: int) -> list[int]:
         if self.again:
             return self.again.popleft()
-        count = max(1, min(LONGEST_BATCH, int(BATCH_S / self.cost_s)))
-        slides = self.results.missing(self.next_slide, count)
+        slides_left = len(self.study) - self.next_slide
+        slides = self.results.missing(self.next_slide, batch_size(slides_left, self.cost_s, cores))
         if slides:
             self.next_slide = slides[-1] + 1
         return slides
@@ -147,7 +158,7 @@ def _connector(scheduler: str | None, workers: int | None):
 
 
 def _arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="python3 -m glissade.fleet", description=__doc__.split("\n\n")[0])
+    parser = argparse.ArgumentParser(prog="glissade-fleet", description=__doc__.split("\n\n")[0])
     parser.add_argument("study", type=pathlib.Path, help="study file; docs/studies.md has its keys")
     parser.add_argument("--out", type=pathlib.Path, help="folder for the results, as of 'glissade study'")
     parser.add_argument("--scheduler", metavar="ADDRESS", help="a Dask scheduler, such as tcp://host:8786; default: "
@@ -188,7 +199,7 @@ def main() -> int:
     if counts["problems"]:
         print(f"; {counts['problems']} could not be run, see the column 'problem'", end="")
     print()
-    print(f"results: {folder / 'slides.csv'}")
+    print(f"results: {folder / 'slides.csv'}; its page: glissade study {arguments.study} --out {folder}")
     return 0
 
 

@@ -53,6 +53,16 @@ def test_a_cluster_gives_the_rows_of_one_process(file, cluster):
     assert rows_of(file.parent / "out") == expected_rows(file)
 
 
+def test_batches_grow_with_the_cluster_and_shrink_at_the_end():
+    slide_s = 0.05
+    assert fleet.batch_size(1_000_000, slide_s, 2) == 40, "two seconds"
+    of_many = fleet.batch_size(1_000_000, slide_s, 1000)
+    assert 1000 * fleet.BATCH_COST_S / (of_many * slide_s) == pytest.approx(fleet.BUSY, rel=0.01)
+    assert fleet.batch_size(16, slide_s, 2) == 5, "the least share of a batch"
+    assert fleet.batch_size(100, slide_s, 2) == 25, "half of what is left for each worker"
+    assert fleet.batch_size(1000, 100.0, 2) == 1
+
+
 def test_a_killed_worker_changes_no_row(file, cluster, small_batches):
     controller = fleet.Fleet(file, file.parent / "out")
     killed = []
