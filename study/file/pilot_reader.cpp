@@ -53,8 +53,8 @@ std::vector<PilotSlide> read_pilot(const std::filesystem::path& folder, const st
     }
   }
   if (slides.size() < kLeastSlidesOfPilot) {
-    throw std::invalid_argument(path + ": a pilot needs at least " + std::to_string(kLeastSlidesOfPilot) + " slides, not " +
-                                std::to_string(slides.size()));
+    throw std::invalid_argument(path + ": a pilot needs at least " + std::to_string(kLeastSlidesOfPilot) +
+                                " slides, not " + std::to_string(slides.size()));
   }
   return slides;
 }
