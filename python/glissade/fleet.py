@@ -204,4 +204,7 @@ def main() -> int:
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    # Workers of another program find the functions of this module by its name only.
+    from glissade.fleet import main as main_of_module
+
+    sys.exit(main_of_module())

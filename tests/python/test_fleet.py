@@ -129,10 +129,26 @@ class Scheduler:
             process.wait()
 
 
-def test_a_scheduler_that_is_killed_and_started_again_loses_nothing(file, small_batches):
+def free_port() -> int:
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
+        return free.getsockname()[1]
+
+
+def test_the_command_uses_workers_of_another_program(file):
+    scheduler = Scheduler(free_port())
+    try:
+        command = [sys.executable, "-m", "glissade.fleet", str(file), "--scheduler", scheduler.address, "--quiet"]
+        ended = subprocess.run(command, capture_output=True, text=True, timeout=120)
+    finally:
+        scheduler.kill()
+    assert ended.returncode == 0, ended.stderr
+    assert f"of {SLIDES} slides succeed" in ended.stdout
+    assert rows_of(file.parent / "study_results") == expected_rows(file)
+
+
+def test_a_scheduler_that_is_killed_and_started_again_loses_nothing(file, small_batches):
+    port = free_port()
     schedulers = [Scheduler(port)]
 
     def restart_once(running):
