@@ -51,7 +51,8 @@ std::vector<double> Sampler::values(std::int64_t number) const {
 
 std::vector<double> Sampler::random_shares(std::int64_t number) const {
   const auto stream = static_cast<std::uint64_t>(number);
-  std::mt19937_64 generator = generator_of(seed_, strata_ != nullptr ? kFirstStratifiedStream + stream : stream);
+  std::mt19937_64 generator =
+      strata_ != nullptr ? generator_of(strata_->seed(), kFirstStratifiedStream + stream) : generator_of(seed_, stream);
   std::vector<double> shares;
   for (std::size_t p = 0; p < distributions_.size(); ++p) {
     const double share = share_of(generator());

@@ -56,6 +56,10 @@ Json json_object(const Study& study, const SlideRow& row) {
   json["slide"] = row.slide;
   for (std::size_t p = 0; p < study.parameters.size(); ++p)
     json[study.parameters[p].name] = value_of(study.parameters[p], row.values[p]);
+  if (study.strata != nullptr) {
+    json["stratum"] = study.strata->index_of(row.slide);
+    json["weight"] = study.strata->weight_of(row.slide);
+  }
   json["success"] = row.outcome == "success" ? 1 : 0;
   json["outcome"] = row.outcome;
   json["goal_distance_m"] = measured(measures.goal_distance_m);

@@ -51,6 +51,17 @@ void add_rules(files::Hash& hash, const Study& study) {
   hash.add(static_cast<std::uint64_t>(study.rules.overlap));
 }
 
+void add(files::Hash& hash, const Strata& strata) {
+  hash.add(strata.seed());
+  for (const Stratum& stratum : strata.all()) {
+    for (std::size_t p = 0; p < stratum.lower.size(); ++p) {
+      hash.add(stratum.lower[p]);
+      hash.add(stratum.upper[p]);
+    }
+    hash.add(static_cast<std::uint64_t>(stratum.slides));
+  }
+}
+
 }  // namespace
 
 std::uint64_t hash_of(const Study& study, std::span<const simulation::SceneBodies> bodies) {
@@ -78,6 +89,7 @@ std::uint64_t hash_of(const Study& study, std::span<const simulation::SceneBodie
   add_rules(hash, study);
   for (const bool is_recorded : study.records)
     hash.add(std::uint64_t{is_recorded});
+  if (study.strata != nullptr) add(hash, *study.strata);
   return hash.value();
 }
 

@@ -87,6 +87,7 @@ struct Study {
   Sampling sampling = Sampling::kSobol;
   std::int64_t slides = 0;
   std::uint64_t seed = 1;
+  std::filesystem::path pilot{};           ///< folder with the results of a pilot, for `kStratified`
   std::shared_ptr<const Strata> strata{};  ///< for `kStratified`
   Success success{};
   contact::Metaphor metaphor = contact::Metaphor::kForceFeedback;

@@ -81,6 +81,10 @@ StudyResults::StudyResults(std::filesystem::path folder, const Study& study, con
   std::error_code error;
   std::filesystem::create_directories(folder_, error);
   if (error) throw std::invalid_argument(folder_.string() + ": " + error.message());
+  if (!study.pilot.empty() && std::filesystem::equivalent(folder_, study.pilot)) {
+    throw std::invalid_argument(folder_.string() +
+                                ": has the pilot of this study; the results need another folder (--out)");
+  }
   open_journal(shard);
   std::vector<std::filesystem::path> found;
   for (const auto& entry : std::filesystem::directory_iterator(folder_)) {

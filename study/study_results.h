@@ -37,7 +37,7 @@ class StudyResults {
  public:
   /// `study` and `runner` must outlive this object. Creates the folder if necessary, and finds all rows in it that
   /// belong to the study. Throws std::invalid_argument, naming the file, if the folder cannot be created, if a file in
-  /// it cannot be read, and if another run writes the same journal.
+  /// it cannot be read, if another run writes the same journal, and if the folder is that of the pilot.
   StudyResults(std::filesystem::path folder, const Study& study, const SlideRunner& runner, const Shard& shard);
   ~StudyResults();
   StudyResults(const StudyResults&) = delete;

@@ -19,21 +19,20 @@ struct Rate {
 /// std::invalid_argument unless 0 ≤ successes ≤ slides and slides > 0.
 Rate success_rate(std::int64_t successes, std::int64_t slides);
 
-/// So many standard deviations on each side of the mean leave out 5 % of a normal distribution.
-inline constexpr double kNormalQuantile_95 = 1.959963984540054;
-
-/// The standard deviation of success (0 or 1) of a slide, after `successes` of `slides` slides, by Laplace's rule of
-/// succession. So it is positive also if all slides have the same outcome.
-double success_deviation(std::int64_t successes, std::int64_t slides);
+/// The standard deviation of success (0 or 1) of a slide, after `successes` of `slides` slides. The success rate is
+/// that of Laplace's rule of succession. So the deviation is positive also if all slides have the same outcome.
+double success_deviation(double successes, std::int64_t slides);
 
 struct StratumCount {
   double weight;  ///< probability of the stratum
-  std::int64_t successes = 0;
+  double successes = 0.0;
   std::int64_t slides = 0;
 };
 
-/// The mean of the success rates of strata, weighted by their probabilities, with the normal interval of 95 %. The
-/// deviation in each stratum is `success_deviation`. Each stratum must have slides.
+/// The mean of the success rates of strata, weighted by their probabilities. The interval is that of Clopper and
+/// Pearson for as many independent slides as would have the variance of this mean (Korn and Graubard 1998). The
+/// variance is that with `success_deviation` in each stratum. For a single stratum, the interval is that of
+/// `success_rate`. Each stratum must have slides.
 Rate stratified_rate(const std::vector<StratumCount>& strata);
 
 }  // namespace glissade::study

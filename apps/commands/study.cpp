@@ -157,7 +157,7 @@ std::string percent(double share) {
 void tell(const study::Study& study, const study::StudyCounts& counts, const std::string& folder) {
   const study::Rate& rate = counts.rate;
   std::cout << counts.successes << " of " << counts.rows << " slides succeed: ";
-  if (study.strata != nullptr) std::cout << "with the weights of " << study.strata->all().size() << " strata, ";
+  if (study.strata != nullptr) std::cout << "with the weights of their strata, ";
   std::cout << percent(rate.share);
   if (study.sampling != study::Sampling::kGrid)
     std::cout << " (95 % interval: " << percent(rate.least) << " to " << percent(rate.greatest) << ')';

@@ -192,8 +192,11 @@ def main() -> int:
         print(f"\nglissade: {error}. The same command goes on.", file=sys.stderr)
         return 1
     print(file=sys.stderr)
-    interval = json.loads((folder / "study.json").read_text())["success_rate_95_percent"]
-    print(f"{counts['successes']} of {counts['slides']} slides succeed", end="")
+    summary = json.loads((folder / "study.json").read_text())
+    interval = summary["success_rate_95_percent"]
+    weighted = "with the weights of their strata, " if "strata" in summary else ""
+    print(f"{counts['successes']} of {counts['slides']} slides succeed: {weighted}", end="")
+    print(f"{100 * summary['success_rate']:.2f} %", end="")
     if interval:
         print(f" (95 % interval: {100 * interval[0]:.2f} % to {100 * interval[1]:.2f} %)", end="")
     if counts["problems"]:

@@ -4,9 +4,12 @@
 #include <fstream>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <utility>
 
 #include <nlohmann/json.hpp>
 
+#include <glissade/files/hash.h>
 #include <glissade/files/text.h>
 #include <glissade/study/slide_row.h>
 
@@ -31,32 +34,68 @@ std::optional<double> value_in(const nlohmann::json& row, const Parameter& param
 
 }  // namespace
 
-std::vector<PilotSlide> read_pilot(const std::filesystem::path& folder, const std::vector<Parameter>& parameters) {
+namespace {
+
+/// A line of the file.
+class PilotRow {
+ public:
+  PilotRow(const std::string& line, std::string place)
+      : place_(std::move(place)), row_(nlohmann::json::parse(line, nullptr, false)) {
+    if (!row_.is_object() || !row_.contains("outcome")) fail("is no row of a study");
+  }
+
+  bool has_run() const { return row_["outcome"] != kNotRun; }
+
+  bool succeeds() const {
+    const auto success = row_.find("success");
+    if (success == row_.end() || !success->is_number_integer() || *success < 0 || *success > 1)
+      fail("'success' must be 0 or 1");
+    return *success == 1;
+  }
+
+  double value(const Parameter& parameter) const {
+    const std::optional<double> value = value_in(row_, parameter);
+    if (!value) fail("has no value of the parameter " + files::in_quotes(parameter.name));
+    const Uniform bounds = parameter.distribution.bounds();
+    if (*value < bounds.least || *value > bounds.greatest) {
+      fail(files::in_quotes(parameter.name) + ": " + files::format_number(*value) +
+           " cannot occur in this study, so the pilot is that of another one");
+    }
+    return *value;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw std::invalid_argument(place_ + ": " + what); }
+
+  std::string place_;
+  nlohmann::json row_;
+};
+
+}  // namespace
+
+Pilot read_pilot(const std::filesystem::path& folder, const std::vector<Parameter>& parameters) {
   const std::string path = (folder / "slides.jsonl").string();
-  std::ifstream file(path);
-  if (!file) throw std::invalid_argument(path + ": cannot be read; the pilot must be a study that has ended");
-  std::vector<PilotSlide> slides;
+  std::ifstream file;
+  if (std::filesystem::is_regular_file(path)) file.open(path);
+  if (!file.is_open()) throw std::invalid_argument(path + ": cannot be read; the pilot must be a study that has ended");
+  Pilot pilot;
+  files::Hash hash;
   std::string line;
   for (std::int64_t number = 1; std::getline(file, line); ++number) {
-    const auto fail = [&](const std::string& what) {
-      throw std::invalid_argument(path + ":" + std::to_string(number) + ": " + what);
-    };
-    const nlohmann::json row = nlohmann::json::parse(line, nullptr, false);
-    if (!row.is_object() || !row.contains("success") || !row.contains("outcome")) fail("is no row of a study");
-    if (row["outcome"] == kNotRun) continue;
-    PilotSlide& slide = slides.emplace_back();
-    slide.succeeds = row["success"] == 1;
-    for (const Parameter& parameter : parameters) {
-      const std::optional<double> value = value_in(row, parameter);
-      if (!value) fail("has no value of the parameter " + files::in_quotes(parameter.name));
-      slide.values.push_back(*value);
-    }
+    const PilotRow row(line, path + ":" + std::to_string(number));
+    if (!row.has_run()) continue;
+    PilotSlide& slide = pilot.slides.emplace_back();
+    slide.succeeds = row.succeeds();
+    hash.add(std::uint64_t{slide.succeeds});
+    for (const Parameter& parameter : parameters)
+      hash.add(slide.values.emplace_back(row.value(parameter)));
   }
-  if (slides.size() < kLeastSlidesOfPilot) {
+  if (pilot.slides.size() < kLeastSlidesOfPilot) {
     throw std::invalid_argument(path + ": a pilot needs at least " + std::to_string(kLeastSlidesOfPilot) +
-                                " slides, not " + std::to_string(slides.size()));
+                                " slides, not " + std::to_string(pilot.slides.size()));
   }
-  return slides;
+  pilot.hash = hash.value();
+  return pilot;
 }
 
 }  // namespace glissade::study

@@ -119,6 +119,7 @@ class StudyReader {
   void read_parameters(const YAML::Node& root) {
     Study bare;
     bare.records.fill(true);
+    bare.strata = std::make_shared<const Strata>(std::vector<Stratum>(1), 2, 1);
     const std::vector<std::string> columns = columns_of(bare);
     std::set<std::string> names;
     std::set<std::string> varied;
@@ -293,40 +294,42 @@ class StudyReader {
       yaml_.fail(node, "a grid needs bounds: give 'within' for 'normal'");
   }
 
-  /// The strata of the pilot.
-  std::vector<Stratum> read_strata(const YAML::Node& pilot) const {
-    std::vector<Distribution> distributions;
-    for (const Parameter& parameter : study_.parameters)
-      distributions.push_back(parameter.distribution);
+  Pilot read_pilot_of(const YAML::Node& node) {
+    study_.pilot = full_path(yaml_.text(node, "pilot"));
     try {
-      return make_strata(distributions, read_pilot(full_path(yaml_.text(pilot, "pilot")), study_.parameters));
+      return read_pilot(study_.pilot, study_.parameters);
     } catch (const std::invalid_argument& error) {
-      yaml_.fail(pilot, std::string("pilot: ") + error.what());
+      yaml_.fail(node, std::string("pilot: ") + error.what());
     }
   }
 
-  /// The number of slides that the interval needs.
-  std::int64_t read_half_width(const YAML::Node& node, const std::vector<Stratum>& strata) const {
+  double read_half_width(const YAML::Node& node) const {
     const double half_width = yaml_.number(node, "half_width");
-    if (!(half_width >= kLeastHalfWidth && half_width < kGreatestHalfWidth)) {
-      yaml_.fail(node, "half_width: must lie between " + files::format_number(kLeastHalfWidth) + " and " +
-                           files::format_number(kGreatestHalfWidth) + ", not " + in_quotes(node.Scalar()));
-    }
-    return slides_for(strata, half_width);
+    if (half_width >= kLeastHalfWidth && half_width < kGreatestHalfWidth) return half_width;
+    yaml_.fail(node, "half_width: must lie between " + files::format_number(kLeastHalfWidth) + " and " +
+                         files::format_number(kGreatestHalfWidth) + ", not " + in_quotes(node.Scalar()));
   }
 
   void read_stratified(const YAML::Node& root) {
-    std::vector<Stratum> strata = read_strata(yaml_.required(root, "stratified study", "pilot"));
+    const Pilot pilot = read_pilot_of(yaml_.required(root, "stratified study", "pilot"));
     const YAML::Node slides = root["slides"];
     const YAML::Node half_width = root["half_width"];
     if (!slides == !half_width) yaml_.fail(root, "a stratified study needs either 'slides' or 'half_width'");
-    study_.slides = slides ? static_cast<std::int64_t>(whole(slides, "slides", 1.0, kMostSlides))
-                           : read_half_width(half_width, strata);
-    try {
-      study_.strata = std::make_shared<const Strata>(std::move(strata), study_.slides, study_.seed);
-    } catch (const std::invalid_argument& error) {
-      yaml_.fail(slides, std::string("slides: ") + error.what());
+    std::vector<Distribution> distributions;
+    for (const Parameter& parameter : study_.parameters)
+      distributions.push_back(parameter.distribution);
+    StrataPlan plan;
+    if (slides) {
+      plan.slides = static_cast<std::int64_t>(whole(slides, "slides", 2.0, kMostSlides));
+      plan.strata = make_strata(distributions, pilot.slides, most_strata(plan.slides));
+    } else {
+      plan = plan_for(distributions, pilot.slides, read_half_width(half_width));
     }
+    if (plan.slides > static_cast<std::int64_t>(kMostSlides))
+      yaml_.fail(half_width, "half_width: needs more than 1e+08 slides");
+    study_.slides = plan.slides;
+    // No random numbers of the pilot come again, also if it was a stratified study.
+    study_.strata = std::make_shared<const Strata>(std::move(plan.strata), plan.slides, study_.seed ^ pilot.hash);
   }
 
   void read_slides(const YAML::Node& root) {

@@ -33,7 +33,7 @@ void shuffle(std::vector<Element>& elements, std::mt19937_64 generator) {
 // Streams of random numbers beside those of the slides, which have the numbers from 0.
 inline constexpr std::uint64_t kShiftStream = ~std::uint64_t{0};
 inline constexpr std::uint64_t kStrataStream = kShiftStream - 1;
-inline constexpr std::uint64_t kFirstStratifiedStream = std::uint64_t{1} << 62U;  // no numbers of a pilot come again
+inline constexpr std::uint64_t kFirstStratifiedStream = std::uint64_t{1} << 62U;
 inline constexpr std::uint64_t kFirstHypercubeStream = std::uint64_t{1} << 63U;
 
 }  // namespace glissade::study

@@ -57,37 +57,48 @@ std::int64_t StudySummary::successes() const {
   return std::count(success_.begin(), success_.end(), true);
 }
 
-/// The slides of a stratified study stand for unequal shares of all values.
-double StudySummary::weight_of(std::size_t row) const {
-  return study_.strata != nullptr ? study_.strata->weight_of(slides_[row]) : 1.0;
-}
-
-/// No value as long as a stratum has no slide.
-std::optional<Rate> StudySummary::rate() const {
-  if (rows() == 0) return std::nullopt;
-  if (study_.strata == nullptr) return success_rate(successes(), rows());
+/// Of a stratified study.
+std::vector<StratumCount> StudySummary::counts() const {
   std::vector<StratumCount> counts;
   for (const Stratum& stratum : study_.strata->all())
     counts.push_back({stratum.weight});
   for (std::size_t row = 0; row < slides_.size(); ++row) {
     StratumCount& count = counts[study_.strata->index_of(slides_[row])];
     ++count.slides;
-    count.successes += success_[row] ? 1 : 0;
+    count.successes += success_[row] ? 1.0 : 0.0;
   }
-  if (std::any_of(counts.begin(), counts.end(), [](const StratumCount& count) { return count.slides == 0; }))
+  return counts;
+}
+
+/// By row. The slides of a stratified study stand for unequal shares of all values.
+std::vector<double> StudySummary::weights() const {
+  std::vector<double> weights(slides_.size(), 1.0);
+  if (study_.strata == nullptr) return weights;
+  const std::vector<StratumCount> strata = counts();
+  for (std::size_t row = 0; row < slides_.size(); ++row) {
+    const StratumCount& stratum = strata[study_.strata->index_of(slides_[row])];
+    weights[row] = stratum.weight / static_cast<double>(stratum.slides);
+  }
+  return weights;
+}
+
+std::optional<Rate> StudySummary::rate() const {
+  if (rows() == 0) return std::nullopt;
+  if (study_.strata == nullptr) return success_rate(successes(), rows());
+  const std::vector<StratumCount> strata = counts();
+  if (std::any_of(strata.begin(), strata.end(), [](const StratumCount& count) { return count.slides == 0; }))
     return std::nullopt;
-  return stratified_rate(counts);
+  return stratified_rate(strata);
 }
 
 /// Each text or number of a list is a bin. Other values are divided into bins of the same weight.
-std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
+std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter, const std::vector<double>& weights) const {
   const std::vector<double>& values = values_[parameter];
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   const bool is_list = study_.parameters[parameter].distribution.as_one_of() != nullptr;
-  const double all = std::accumulate(order.begin(), order.end(), 0.0,
-                                     [&](double sum, std::size_t row) { return sum + weight_of(row); });
+  const double all = std::accumulate(weights.begin(), weights.end(), 0.0);
   constexpr double kRounding = 1e-9;
   std::vector<Bin> bins;
   double before = 0.0;  // weight of the slides so far
@@ -97,8 +108,8 @@ std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
     Bin& bin = bins.emplace_back();
     // Equal values are in one bin.
     while (i < order.size() && (i == begin || values[order[i]] == values[order[i - 1]] ||
-                                (!is_list && before + weight_of(order[i]) <= end))) {
-      const double weight = weight_of(order[i]);
+                                (!is_list && before + weights[order[i]] <= end))) {
+      const double weight = weights[order[i]];
       before += weight;
       bin.weight += weight;
       bin.success_weight += success_[order[i]] ? weight : 0.0;
@@ -115,15 +126,16 @@ std::vector<StudySummary::Bin> StudySummary::bins(std::size_t parameter) const {
 }
 
 /// The share of the variance of success that the bins of the parameter explain: the first-order index of Sobol (1993),
-/// estimated by bins. Without effect, it is about (bins − 1) / slides.
-nlohmann::ordered_json StudySummary::sensitivity(std::size_t parameter, double mean) const {
+/// estimated by bins. Without effect, it is about (bins − 1) / slides, if all slides have the same weight.
+nlohmann::ordered_json StudySummary::sensitivity(std::size_t parameter, double mean,
+                                                 const std::vector<double>& weights) const {
   double explained = 0.0;
   double all = 0.0;
   nlohmann::ordered_json json;
   json["name"] = study_.parameters[parameter].name;
   json["share_of_variance"] = 0.0;
   json["bins"] = nlohmann::ordered_json::array();
-  for (const Bin& bin : bins(parameter)) {
+  for (const Bin& bin : bins(parameter, weights)) {
     const double rate = bin.success_weight / bin.weight;
     explained += bin.weight * (rate - mean) * (rate - mean);
     all += bin.weight;
@@ -194,9 +206,10 @@ nlohmann::ordered_json StudySummary::to_json() const {
   }
   if (study_.strata != nullptr) json["strata"] = study_.strata->all().size();
   json["outcomes"] = outcomes_;
+  const std::vector<double> of_rows = weights();
   std::vector<nlohmann::ordered_json> sensitivities;
   for (std::size_t p = 0; p < values_.size(); ++p)
-    sensitivities.push_back(sensitivity(p, of_all ? of_all->share : 0.0));
+    sensitivities.push_back(sensitivity(p, of_all ? of_all->share : 0.0, of_rows));
   std::stable_sort(sensitivities.begin(), sensitivities.end(), [](const auto& a, const auto& b) {
     return a.at("share_of_variance").template get<double>() > b.at("share_of_variance").template get<double>();
   });

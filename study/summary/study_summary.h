@@ -48,9 +48,10 @@ class StudySummary {
     std::string objects;
   };
 
-  double weight_of(std::size_t row) const;
-  std::vector<Bin> bins(std::size_t parameter) const;
-  nlohmann::ordered_json sensitivity(std::size_t parameter, double mean) const;
+  std::vector<StratumCount> counts() const;
+  std::vector<double> weights() const;
+  std::vector<Bin> bins(std::size_t parameter, const std::vector<double>& weights) const;
+  nlohmann::ordered_json sensitivity(std::size_t parameter, double mean, const std::vector<double>& weights) const;
   nlohmann::ordered_json jams() const;
   std::vector<std::int64_t> worst() const;
 

@@ -27,12 +27,14 @@ Study pegs(Sampling sampling, std::int64_t slides, std::uint64_t seed) {
   return study;
 }
 
-bool fits(const std::vector<double>& values) {
-  return std::hypot(values[0], values[1]) < values[2];
+bool fits(const std::vector<double>& values, double scale = 1.0) {
+  return std::hypot(values[0], values[1]) < scale * values[2];
 }
 
-/// The mean over the play r of the area π r² of a disc in the square of area 4.
-const double kRate = std::acos(-1.0) / 12.0;
+/// The mean over the play r of the area π (scale r)² of a disc in the square of area 4.
+double true_rate(double scale = 1.0) {
+  return std::acos(-1.0) / 12.0 * scale * scale;
+}
 
 std::vector<Distribution> distributions() {
   std::vector<Distribution> result;
@@ -41,12 +43,16 @@ std::vector<Distribution> distributions() {
   return result;
 }
 
-std::vector<Stratum> strata_of_pilot(std::int64_t slides, std::uint64_t seed) {
+/// `scale` makes all plays smaller.
+std::vector<PilotSlide> pilot_of(std::int64_t slides, std::uint64_t seed, double scale = 1.0) {
   const Sampler sampler(pegs(Sampling::kSobol, slides, seed));
   std::vector<PilotSlide> pilot;
-  for (std::int64_t slide = 0; slide < slides; ++slide)
-    pilot.push_back({sampler.values(slide), fits(sampler.values(slide))});
-  return make_strata(distributions(), pilot);
+  for (std::int64_t slide = 0; slide < slides; ++slide) {
+    PilotSlide& one = pilot.emplace_back();
+    one.values = sampler.values(slide);
+    one.succeeds = fits(one.values, scale);
+  }
+  return pilot;
 }
 
 Study stratified(const std::vector<Stratum>& strata, std::int64_t slides, std::uint64_t seed) {
@@ -55,7 +61,7 @@ Study stratified(const std::vector<Stratum>& strata, std::int64_t slides, std::u
   return study;
 }
 
-Rate rate_of(const Study& study) {
+Rate rate_of(const Study& study, double scale = 1.0) {
   const Sampler sampler(study);
   std::vector<StratumCount> counts;
   for (const Stratum& stratum : study.strata->all())
@@ -63,14 +69,14 @@ Rate rate_of(const Study& study) {
   for (std::int64_t slide = 0; slide < study.slides; ++slide) {
     StratumCount& count = counts[study.strata->index_of(slide)];
     ++count.slides;
-    count.successes += fits(sampler.values(slide)) ? 1 : 0;
+    count.successes += fits(sampler.values(slide), scale) ? 1.0 : 0.0;
   }
   return stratified_rate(counts);
 }
 
 TEST(Strata, DivideTheRangesWhereSuccessTurnsIntoFailure) {
-  const std::vector<Stratum> strata = strata_of_pilot(512, 1);
-  EXPECT_GT(strata.size(), 20U);
+  const std::vector<Stratum> strata = make_strata(distributions(), pilot_of(512, 1), 40);
+  EXPECT_EQ(strata.size(), 40U);
   double weight = 0.0;
   for (const Stratum& stratum : strata) {
     double volume = 1.0;
@@ -83,30 +89,41 @@ TEST(Strata, DivideTheRangesWhereSuccessTurnsIntoFailure) {
 }
 
 TEST(Strata, WithoutFailureThereIsOneStratum) {
-  EXPECT_EQ(make_strata({{Uniform{0.0, 1.0}}}, std::vector<PilotSlide>(100, {{0.5}, true})).size(), 1U);
+  EXPECT_EQ(make_strata({{Uniform{0.0, 1.0}}}, std::vector<PilotSlide>(100, {{0.5}, true}), 100).size(), 1U);
 }
 
-/// Halves across x and y have the same success rate, because success is in the middle.
+/// Halves across the second parameter have the same success rate, because success is in the middle.
 TEST(Strata, SuccessInTheMiddleIsFound) {
   std::vector<PilotSlide> pilot;
   for (int i = 0; i < 64; ++i) {
     for (int j = 0; j < 64; ++j)
       pilot.push_back({{j / 64.0, i / 64.0}, std::abs(i - 31.5) < 16.0});
   }
-  const std::vector<Stratum> strata = make_strata({{Uniform{0.0, 1.0}}, {Uniform{0.0, 1.0}}}, pilot);
+  const std::vector<Stratum> strata = make_strata({{Uniform{0.0, 1.0}}, {Uniform{0.0, 1.0}}}, pilot, 100);
   ASSERT_EQ(strata.size(), 4U) << "quarters across the second parameter";
   for (const Stratum& stratum : strata)
     EXPECT_EQ(stratum.upper[0] - stratum.lower[0], 1.0);
 }
 
+/// Of five values, all equally likely, the third one fails.
+TEST(Strata, NoCutGoesThroughOneOfSeveralValues) {
+  std::vector<PilotSlide> pilot;
+  for (int i = 0; i < 100; ++i)
+    pilot.push_back({{static_cast<double>(i % 5)}, i % 5 != 2});
+  const Distribution values{OneOf{{"a", "b", "c", "d", "e"}, {}}};
+  for (const Stratum& stratum : make_strata({values}, pilot, 100)) {
+    EXPECT_TRUE(stratum.pilot_successes == 0 || stratum.pilot_successes == stratum.pilot_slides);
+    EXPECT_NEAR(stratum.weight, 0.01 * static_cast<double>(stratum.pilot_slides), 1e-12);
+  }
+}
+
 TEST(Strata, MostSlidesAreWhereSuccessIsUncertain) {
-  std::vector<Stratum> two(2, {{0.0}, {1.0}});
-  two[0].weight = two[1].weight = 0.5;
-  two[0].deviation = 0.1;
-  two[1].deviation = 0.4;
+  std::vector<Stratum> two(2, {{0.0}, {1.0}, 0.5});
+  two[0].pilot_slides = two[1].pilot_slides = 98;
+  two[1].pilot_successes = 49;  // deviations: 0.0995 and 0.5
   const Strata strata(two, 1004, 1);
-  EXPECT_EQ(strata.all()[0].slides, 202) << "two, and a fifth of the others";
-  EXPECT_EQ(strata.all()[1].slides, 802);
+  EXPECT_EQ(strata.all()[0].slides, 2 + 166);
+  EXPECT_EQ(strata.all()[1].slides, 2 + 834);
   double weights = 0.0;
   for (std::int64_t slide = 0; slide < 1004; ++slide)
     weights += strata.weight_of(slide);
@@ -115,7 +132,7 @@ TEST(Strata, MostSlidesAreWhereSuccessIsUncertain) {
 }
 
 TEST(Strata, ValuesLieInTheStratumOfTheirSlide) {
-  const Study study = stratified(strata_of_pilot(256, 1), 500, 1);
+  const Study study = stratified(make_strata(distributions(), pilot_of(256, 1), 30), 500, 1);
   const Sampler sampler(study);
   for (std::int64_t slide = 0; slide < 500; ++slide) {
     const Stratum& stratum = study.strata->of(slide);
@@ -125,31 +142,50 @@ TEST(Strata, ValuesLieInTheStratumOfTheirSlide) {
   }
 }
 
+// Also where success is rare: one in a hundred.
 TEST(Strata, TheIntervalContainsTheRateOfTheClosedForm) {
-  constexpr int kStudies = 400;
-  int misses = 0;
-  double bias = 0.0;
-  for (std::uint64_t seed = 1; seed <= kStudies; ++seed) {
-    const Rate rate = rate_of(stratified(strata_of_pilot(256, seed), 600, seed));
-    misses += rate.least <= kRate && kRate <= rate.greatest ? 0 : 1;
-    bias += (rate.share - kRate) / kStudies;
+  constexpr int kStudies = 200;
+  for (const double scale : {1.0, 0.2}) {
+    int misses = 0;
+    double mean = 0.0;
+    double square = 0.0;
+    for (std::uint64_t seed = 1; seed <= kStudies; ++seed) {
+      const std::vector<Stratum> strata = make_strata(distributions(), pilot_of(256, seed, scale), most_strata(400));
+      const Rate rate = rate_of(stratified(strata, 400, seed), scale);
+      misses += rate.least <= true_rate(scale) && true_rate(scale) <= rate.greatest ? 0 : 1;
+      mean += rate.share / kStudies;
+      square += rate.share * rate.share / kStudies;
+    }
+    EXPECT_LE(misses, 0.05 * kStudies) << scale;
+    EXPECT_NEAR(mean, true_rate(scale), 3.0 * std::sqrt((square - mean * mean) / kStudies))
+        << "no bias, scale " << scale;
   }
-  EXPECT_LE(misses, 0.05 * kStudies);
-  EXPECT_NEAR(bias, 0.0, 0.002) << "three standard deviations of this mean";
 }
 
-// Pilot and study together, beside the interval of independent slides.
+double half_width_of(const Rate& rate) {
+  return 0.5 * (rate.greatest - rate.least);
+}
+
+// Pilot and study together, beside independent slides with the same interval.
 TEST(Strata, TheSameIntervalTakesAThirdOfTheSlides) {
-  constexpr double kHalfWidth = 0.005;
   constexpr std::int64_t kPilot = 2048;
-  const std::vector<Stratum> strata = strata_of_pilot(kPilot, 1);
-  const std::int64_t slides = slides_for(strata, kHalfWidth);
-  const Rate rate = rate_of(stratified(strata, slides, 1));
-  EXPECT_LE(0.5 * (rate.greatest - rate.least), 1.1 * kHalfWidth);
+  const StrataPlan plan = plan_for(distributions(), pilot_of(kPilot, 1), 0.005);
+  const double half_width = half_width_of(rate_of(stratified(plan.strata, plan.slides, 1)));
+  EXPECT_NEAR(half_width, 0.005, 0.001);
   std::int64_t plain = 1000;
-  for (Rate one = success_rate(1, 2); 0.5 * (one.greatest - one.least) > kHalfWidth; plain += 1000)
-    one = success_rate(std::llround(kRate * static_cast<double>(plain)), plain);
-  EXPECT_LE(3 * (kPilot + slides), plain) << kPilot << " and " << slides;
+  const auto successes = [&] { return std::llround(true_rate() * static_cast<double>(plain)); };
+  while (half_width_of(success_rate(successes(), plain)) > half_width)
+    plain += 100;
+  EXPECT_LE(3 * (kPilot + plan.slides), plain) << kPilot << " and " << plan.slides;
+}
+
+TEST(Strata, ALargerPilotMakesNoWiderInterval) {
+  constexpr double kHalfWidth = 0.02;
+  for (const std::int64_t pilot : {64, 512, 4096}) {
+    const StrataPlan plan = plan_for(distributions(), pilot_of(pilot, 1), kHalfWidth);
+    const Rate rate = rate_of(stratified(plan.strata, plan.slides, 1));
+    EXPECT_LE(half_width_of(rate), 1.3 * kHalfWidth) << pilot << ": " << plan.slides;
+  }
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 
 #include "summary/study_summary.h"
 
+#include <memory>
 #include <string>
+#include <vector>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -112,6 +114,29 @@ TEST_F(Summary, SlidesMayBeMissing) {
   summary.add(second);
   EXPECT_EQ(summary.to_json()["greatest_forces"], nlohmann::ordered_json({70, 40}));
   EXPECT_EQ(summary.to_json()["success_rate"], 0.5);
+}
+
+/// Two strata, of which the smaller one has most slides.
+TEST_F(Summary, SlidesOfStrataHaveTheirWeights) {
+  std::vector<Stratum> two(2, {{0.0, 0.0}, {1.0, 1.0}, 0.2, 10, 5});
+  two[1].weight = 0.8;
+  two[1].pilot_successes = 0;
+  Study stratified = study;
+  stratified.strata = std::make_shared<const Strata>(two, 100, 1);
+  StudySummary of_strata(stratified);
+  EXPECT_FALSE(of_strata.rate().has_value());
+  int in_first = 0;
+  for (int i = 0; i < 100; ++i) {
+    const bool is_first = stratified.strata->index_of(i) == 0;
+    in_first += is_first ? 1 : 0;
+    of_strata.add(row(is_first ? 0.0 : 1.0, "incremental", is_first));
+  }
+  EXPECT_GT(in_first, 28);
+  const auto numbers = of_strata.to_json();
+  EXPECT_DOUBLE_EQ(numbers["success_rate"], 0.2);
+  EXPECT_EQ(numbers["successes"], in_first);
+  EXPECT_EQ(numbers["strata"], 2);
+  EXPECT_NEAR(numbers["parameters"][0]["share_of_variance"], 1.0, 1e-9);
 }
 
 TEST_F(Summary, CountsOutcomesAndProblems) {

@@ -33,6 +33,22 @@ TEST(SuccessRate, WithoutFailureTheBoundIsTheRuleOfThree) {
   EXPECT_EQ(success_rate(0, 10).least, 0.0);
 }
 
+TEST(SuccessRate, OneStratumIsTheWholeStudy) {
+  for (const int successes : {0, 37, 119, 120}) {
+    const Rate rate = stratified_rate({{1.0, static_cast<double>(successes), 120}});
+    EXPECT_NEAR(rate.least, success_rate(successes, 120).least, 1e-9);
+    EXPECT_NEAR(rate.greatest, success_rate(successes, 120).greatest, 1e-9);
+  }
+}
+
+/// The same outcomes, known to lie in two halves, leave less doubt.
+TEST(SuccessRate, StrataAreWeighted) {
+  const Rate rate = stratified_rate({{0.25, 200.0, 200}, {0.75, 0.0, 100}});
+  EXPECT_DOUBLE_EQ(rate.share, 0.25);
+  EXPECT_LT(rate.greatest - rate.least, 0.05);
+  EXPECT_GT(rate.greatest, 0.25 + 0.75 * 0.01);
+}
+
 TEST(SuccessRate, ImpossibleCountsAreRefused) {
   EXPECT_THROW(success_rate(0, 0), std::invalid_argument);
   EXPECT_THROW(success_rate(3, 2), std::invalid_argument);

@@ -85,7 +85,7 @@ function addRate(summary, isComplete, total) {
   const element = section('Success');
   const interval = summary.success_rate_95_percent;
   const range = interval ? ` (95 % interval: ${percent(interval[0])} to ${percent(interval[1])})` : '';
-  const weighted = summary.strata ? `, with the weights of ${summary.strata} strata` : '';
+  const weighted = summary.strata ? ', weighted by their strata' : '';
   const of = isComplete ? `${summary.slides} slides` : `the ${summary.slides} slides that are done, of ${total}`;
   append(element, 'p', `${rateOf(summary)}${range}: ${summary.successes} of ${of} succeed${weighted}.`, 'rate');
   const track = append(element, 'div', '', 'track');
