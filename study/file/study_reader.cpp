@@ -27,7 +27,7 @@ using files::in_quotes;
 
 constexpr std::uintmax_t kLargestStudyFile = std::uintmax_t{1} << 24U;
 constexpr double kMostSlides = 1e8;
-constexpr double kLeastHalfWidth = 1e-4;  // of the interval of a rate
+constexpr double kLeastHalfWidth = 1e-4;  // of the interval of a rate; needs at most 9.7e7 slides
 constexpr double kGreatestHalfWidth = 0.5;
 constexpr double kLargestValue = 1e9;                // as coordinates
 constexpr double kLargestSeed = 9007199254740992.0;  // all whole numbers up to it are doubles
@@ -312,8 +312,7 @@ class StudyReader {
 
   void read_stratified(const YAML::Node& root) {
     const Pilot pilot = read_pilot_of(yaml_.required(root, "stratified study", "pilot"));
-    const YAML::Node slides = root["slides"];
-    const YAML::Node half_width = root["half_width"];
+    const YAML::Node slides = root["slides"], half_width = root["half_width"];
     if (!slides == !half_width) yaml_.fail(root, "a stratified study needs either 'slides' or 'half_width'");
     std::vector<Distribution> distributions;
     for (const Parameter& parameter : study_.parameters)
@@ -325,8 +324,6 @@ class StudyReader {
     } else {
       plan = plan_for(distributions, pilot.slides, read_half_width(half_width));
     }
-    if (plan.slides > static_cast<std::int64_t>(kMostSlides))
-      yaml_.fail(half_width, "half_width: needs more than 1e+08 slides");
     study_.slides = plan.slides;
     // No random numbers of the pilot come again, also if it was a stratified study.
     study_.strata = std::make_shared<const Strata>(std::move(plan.strata), plan.slides, study_.seed ^ pilot.hash);
