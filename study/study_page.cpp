@@ -32,6 +32,13 @@ double rounded(double value) {
   return std::strtod(text.data(), nullptr);
 }
 
+/// One of `step` slides, by multiplicative hashing (Knuth). Every second point of a Sobol sequence would lie in one
+/// half of a parameter.
+bool is_chosen(std::uint64_t slide, std::uint64_t step) {
+  constexpr std::uint64_t kGoldenRatio = 0x9e3779b97f4a7c15U;
+  return ((slide * kGoldenRatio) >> 32U) % step == 0;
+}
+
 }  // namespace
 
 struct StudyPage::Table {
@@ -72,12 +79,12 @@ struct StudyPage::Table {
   std::vector<std::string> columns;
   std::vector<json> data;                                  // by column
   std::vector<std::map<std::string, std::int64_t>> words;  // by column
-  std::int64_t step = 1;
+  std::uint64_t step = 1;
 };
 
 StudyPage::StudyPage(const Study& study, std::int64_t most_rows)
     : study_(study), table_(std::make_unique<Table>(study)) {
-  table_->step = (study.slides + most_rows - 1) / most_rows;
+  table_->step = static_cast<std::uint64_t>((study.slides + most_rows - 1) / most_rows);
 }
 
 StudyPage::~StudyPage() = default;
@@ -85,7 +92,7 @@ StudyPage::~StudyPage() = default;
 void StudyPage::add(const std::string& text) {
   const json row = json::parse(text);
   table_->summary.add(row);
-  if (row.at("slide").get<std::int64_t>() % table_->step == 0) table_->add(row);
+  if (is_chosen(row.at("slide").get<std::uint64_t>(), table_->step)) table_->add(row);
 }
 
 std::vector<std::int64_t> StudyPage::notable_slides() const {
@@ -100,14 +107,15 @@ std::vector<std::int64_t> StudyPage::notable_slides() const {
   return {slides.begin(), slides.end()};
 }
 
-std::string StudyPage::to_json(const std::vector<std::int64_t>& replays, const std::string& command) const {
+std::string StudyPage::to_json(const StudyPageContext& context) const {
   nlohmann::ordered_json page;
   page["slides"] = study_.slides;
-  page["is_complete"] = table_->summary.rows() == study_.slides;
+  page["is_complete"] = context.is_complete;
+  page["is_served"] = context.is_served;
   page["summary"] = table_->summary.to_json();
   page["table"] = {{"columns", table_->columns}, {"data", table_->data}, {"words", table_->words_json()}};
-  page["replays"] = replays;
-  page["command"] = command;
+  page["replays"] = context.replays;
+  page["command"] = context.command;
   return page.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 

@@ -11,6 +11,14 @@
 
 namespace glissade::study {
 
+/// What a page knows beside the rows.
+struct StudyPageContext {
+  std::vector<std::int64_t> replays{};  ///< slides that have a page of their own beside the page
+  std::string command;                  ///< that has run the study
+  bool is_served = false;               ///< a server makes the page of each slide on request
+  bool is_complete = false;             ///< the tables have been written
+};
+
 /// Collects the rows of a study for its page. Memory: some 200 bytes for each of the rows on the page, and what a
 /// summary needs for the others.
 class StudyPage {
@@ -27,9 +35,8 @@ class StudyPage {
   /// slides jam.
   std::vector<std::int64_t> notable_slides() const;
 
-  /// The data of the page, as JSON. `replays` are the slides that have a page of their own beside it. `command` is the
-  /// command that has run the study.
-  std::string to_json(const std::vector<std::int64_t>& replays, const std::string& command) const;
+  /// The data of the page, as JSON.
+  std::string to_json(const StudyPageContext& context) const;
 
  private:
   struct Table;

@@ -210,6 +210,7 @@ StudyCounts StudyResults::finish() {
   places_ = std::move(places);
   paths_ = {folder_ / kRows};
   reading_ = -1;
+  is_finished_ = true;
   return {summary.rows(), summary.successes(), summary.problems(), *summary.rate()};
 }
 

@@ -62,6 +62,7 @@ class StudyResults {
   /// is written under another name and then renamed. Throws std::logic_error if a row is missing, and
   /// std::runtime_error if a file could not be written.
   StudyCounts finish();
+  bool is_finished() const { return is_finished_; }
 
  private:
   struct Place {
@@ -85,6 +86,7 @@ class StudyResults {
   int journal_ = -1;
   std::int64_t count_ = 0;
   std::int64_t outdated_ = 0;
+  bool is_finished_ = false;
 };
 
 }  // namespace glissade::study

@@ -162,7 +162,17 @@ void tell(const study::Study& study, const study::StudyCounts& counts, const std
   if (study.sampling != study::Sampling::kGrid)
     std::cout << " (95 % interval: " << percent(rate.least) << " to " << percent(rate.greatest) << ')';
   if (counts.problems > 0) std::cout << "; " << counts.problems << " could not be run, see the column 'problem'";
-  std::cout << "\nresults: " << folder << "/slides.csv, " << report_page(folder) << std::endl;
+  std::cout << "\nresults: " << folder << "/slides.csv" << std::endl;
+}
+
+/// The text as one word of a shell.
+std::string in_shell(const std::string& text) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./-";
+  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
+  std::string word = "'";
+  for (const char c : text)
+    word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
 }
 
 /// Prints a row, and writes its page.
@@ -171,11 +181,14 @@ void run_one(const StudyOptions& options, const study::Study& study, const study
     throw std::invalid_argument("--slide: the study has the slides 0 to " + std::to_string(study.slides - 1) +
                                 ", not " + std::to_string(*options.slide));
   }
-  if (!options.report.empty()) {
-    prepare_report_folder(options.report);
-    write_html_report(slide_report(study, runner, *options.slide), options.report);
+  if (options.report.empty()) {
+    std::cout << study::json_of(study, runner.run(*options.slide)) << '\n';
+    return;
   }
-  std::cout << study::json_of(study, runner.run(*options.slide)) << '\n';
+  prepare_report_folder(options.report);
+  const SlidePage page = slide_page(study, runner, *options.slide, options.longest_s, [] { return false; });
+  write_html_report(page.report, options.report);
+  std::cout << page.row << '\n';
 }
 
 std::unique_ptr<viewer::PageServer> open_pages(std::uint16_t port, const StudyReport& report) {
@@ -199,13 +212,17 @@ int run_all(const StudyOptions& options, const study::Study& study, const study:
     warn(options.folder + ": " + std::to_string(files.outdated()) +
          " rows belong to other inputs or another version, and are not used");
   }
+  if (shard.is_all()) prepare_report_folder(options.folder);
   std::mutex rows_mutex;
-  const StudyReport report({.study = study,
-                            .runner = runner,
-                            .results = files,
-                            .rows_mutex = rows_mutex,
-                            .folder = options.folder,
-                            .command = "glissade study " + options.file + " --out " + options.folder});
+  const StudyReport report(
+      {.study = study,
+       .runner = runner,
+       .results = files,
+       .rows_mutex = rows_mutex,
+       .folder = options.folder,
+       .command = "glissade study " + in_shell(options.file) + " --out " + in_shell(options.folder),
+       .longest_s = options.longest_s,
+       .should_stop = StopSignal::requested});
   const auto server = options.view_port ? open_pages(*options.view_port, report) : nullptr;
   run_missing(options, study, runner, shard, files, rows_mutex);
   const std::string done = std::to_string(files.count()) + " of " + std::to_string(study.slides) + " slides are done";
@@ -221,8 +238,12 @@ int run_all(const StudyOptions& options, const study::Study& study, const study:
     const std::scoped_lock lock(rows_mutex);
     return files.finish();
   }();
-  report.write(StopSignal::requested);
   tell(study, counts, options.folder);
+  if (!report.write()) {
+    say("glissade: stopped: some replays are missing; the same command makes them");
+    return 1;
+  }
+  std::cout << "page: " << report_page(options.folder) << std::endl;
   constexpr std::chrono::milliseconds kPollPeriod{50};
   while (server && !StopSignal::requested())
     std::this_thread::sleep_for(kPollPeriod);
@@ -254,7 +275,8 @@ void add_study_command(CLI::App& app, Command& chosen) {
   constexpr int kMostWorkers = 1024;
   command->add_option("--workers", options->workers, "Processes that run slides; default: one per processor")
       ->check(CLI::Range(1, kMostWorkers));
-  command->add_option("--shard", options->shard, "Do a share of the slides only, such as 0/4, see above");
+  CLI::Option* shard =
+      command->add_option("--shard", options->shard, "Do a share of the slides only, such as 0/4, see above");
   constexpr double kShortest_s = 1e-3;
   constexpr double kLongest_s = 1e8;  // some years, and no overflow of nanoseconds
   command->add_option("--longest-s", options->longest_s, "A slide that takes more seconds is given up")
@@ -263,7 +285,7 @@ void add_study_command(CLI::App& app, Command& chosen) {
   CLI::Option* slide = command->add_option("--slide", options->slide, "Run this slide only, and print its row as JSON");
   command->add_option("--report", options->report, "Folder for a page, index.html, with the replay of the slide")
       ->needs(slide);
-  add_view_option(*command, options->view_port)->excludes(slide);
+  add_view_option(*command, options->view_port)->excludes(slide)->excludes(shard);
   command->add_flag(WorkerProcess::kOption, options->is_worker)->group("");
   add_quiet_option(*command);
   command->callback([options, &chosen] {

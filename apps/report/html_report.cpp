@@ -143,9 +143,12 @@ void prepare_report_folder(const std::string& folder) {
 std::string write_html_report(const Report& report, const std::string& folder) {
   prepare_report_folder(folder);
   std::string path = report_page(folder);
-  std::ofstream file = open_output(path);
-  file << html_report(report) << std::flush;
-  if (!file) throw std::runtime_error(path + ": not everything could be written");
+  const std::string partial = path + ".partial";
+  std::ofstream file = open_output(partial);
+  file << html_report(report);
+  file.close();
+  if (!file) throw std::runtime_error(partial + ": not everything could be written");
+  std::filesystem::rename(partial, path);
   return path;
 }
 

@@ -17,8 +17,16 @@
 
 namespace glissade::apps {
 
-/// Runs a slide again, and makes its page: the values of its row, and its replay. Thread-safe.
-Report slide_report(const study::Study& study, const study::SlideRunner& runner, std::int64_t slide);
+/// A slide that has been run again.
+struct SlidePage {
+  Report report;    ///< the values of its row, and its replay
+  std::string row;  ///< as `study::json_of` made it
+};
+
+/// Makes the page of a slide. Throws std::runtime_error if it takes longer than `longest_s` seconds, or if
+/// `should_stop` becomes true. Thread-safe.
+SlidePage slide_page(const study::Study& study, const study::SlideRunner& runner, std::int64_t slide, double longest_s,
+                     bool (*should_stop)());
 
 /// The pages of the study in a folder. Thread-safe, if all others lock `rows_mutex` to use `results`.
 class StudyReport {
@@ -30,20 +38,23 @@ class StudyReport {
     std::mutex& rows_mutex;
     std::string folder;
     std::string command;  ///< that runs the study
+    double longest_s;     ///< for the replay of a slide
+    bool (*should_stop)();
   };
   explicit StudyReport(Source source) : source_(std::move(source)) {}
 
-  /// Writes index.html, and the pages of the slides that one wants to see first: slides/N/index.html. `should_stop` may
-  /// end it before all of these are there. Throws what `write_html_report` throws.
-  void write(bool (*should_stop)()) const;
+  /// Writes index.html, and the pages of the slides that one wants to see first: slides/N/index.html. Returns false if
+  /// `should_stop` became true before all of these were there. A slide whose replay takes too long has no page. Throws
+  /// what `write_html_report` throws.
+  bool write() const;
 
   /// What a browser asks for: the page with the rows that are there, its data, the page of any slide, and the files of
-  /// the folder.
+  /// the folder. Throws what `slide_page` throws.
   std::optional<viewer::ServedFile> find(std::string_view path) const;
 
  private:
-  std::string data(const std::vector<std::int64_t>& replays) const;
-  Report page(const std::vector<std::int64_t>& replays) const;
+  std::string served_data() const;
+  SlidePage page_of(std::int64_t slide) const;
 
   Source source_;
 };

@@ -105,7 +105,7 @@ DeviceDescriptor descriptor_of(const GloveModel& model) {
   descriptor.update_rate = model.update_rate;
   // The haptic loop sees only late states: it cannot tell the time on the model's link from a difference of clocks.
   const double on_link = 2.0 * (model.link.delay + model.link.jitter);
-  descriptor.delay = nanoseconds_of(std::min(1.0, model.measurement_delay + on_link));
+  descriptor.delay = nanoseconds_of(model.measurement_delay + on_link);
   const WristModel& wrist = model.wrist;
   descriptor.resolution = wrist.position_noise;
   if (wrist.is_grounded) {
@@ -126,6 +126,8 @@ DeviceDescriptor descriptor_of(const GloveModel& model) {
   if (descriptor.max_force == 0.0) descriptor.max_stiffness = kStiffnessWithoutForce;
   if (descriptor.max_torque == 0.0) descriptor.max_rotational_stiffness = kStiffnessWithoutTorque;
   describe_fingers(model, descriptor);
+  constexpr std::chrono::seconds kLongestDelay{1};  // that a descriptor permits
+  descriptor.delay = std::min<std::chrono::nanoseconds>(descriptor.delay, kLongestDelay);
   return descriptor;
 }
 

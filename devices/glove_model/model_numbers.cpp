@@ -14,7 +14,7 @@ using enum ModelSection;
 
 constexpr double kMost = 1e6;      // of a number that physics bounds, not the simulation
 constexpr double kFastest = 8000;  // Hz; the step of the fingers
-constexpr double kLongest = 0.4;   // s; two delays and a lag stay below the second that a descriptor permits
+constexpr double kLongest = 0.4;   // s
 
 void add_wrist(GloveModel& m, std::vector<ModelNumber>& numbers) {
   WristModel& w = m.wrist;

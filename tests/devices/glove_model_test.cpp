@@ -264,6 +264,15 @@ TEST(GloveModel, LinkDelaysTheCommands) {
   }
 }
 
+TEST(GloveModel, DelayOfTheDescriptorHasBothWaysOfTheLink) {
+  GloveModel model = read_glove_model("omega_3");
+  model.measurement_delay = 0.002;
+  model.link = {.delay = 0.01, .jitter = 0.005};
+  EXPECT_EQ(descriptor_of(model).delay, std::chrono::milliseconds(32));
+  model.measurement_delay = model.link.delay = model.link.jitter = 0.4;
+  EXPECT_EQ(descriptor_of(model).delay, std::chrono::seconds(1)) << "the longest that a descriptor permits";
+}
+
 TEST(GloveModel, LinkLosesItsShareOfTheStates) {
   GloveModel model = parse_glove_model(kArm, "arm.yaml");
   model.link.loss = 0.25;

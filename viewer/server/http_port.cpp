@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include <fcntl.h>
+
 namespace glissade::viewer {
 
 namespace asio = boost::asio;
@@ -16,9 +18,16 @@ namespace {
 constexpr std::size_t kMostConnections = 128;
 constexpr std::chrono::milliseconds kAcceptPause{100};
 
+/// Not for programs that this one starts: they would keep port and connections open.
+void keep_from_children(int socket) {
+  fcntl(socket, F_SETFD, FD_CLOEXEC);
+}
+
 tcp::acceptor listening(asio::io_context& io, std::uint16_t port) {
   try {
-    return {io, tcp::endpoint(asio::ip::address_v4::loopback(), port)};
+    tcp::acceptor acceptor(io, tcp::endpoint(asio::ip::address_v4::loopback(), port));
+    keep_from_children(acceptor.native_handle());
+    return acceptor;
   } catch (const boost::system::system_error& error) {
     throw std::invalid_argument("port " + std::to_string(port) + " cannot be opened: " + error.code().message());
   }
@@ -48,6 +57,7 @@ void HttpPort::accept() {
       pause_.async_wait([this](beast::error_code) { accept(); });
       return;
     }
+    keep_from_children(socket.native_handle());
     socket.set_option(tcp::no_delay(true), error);
     const auto connection = std::make_shared<Connection>(beast::tcp_stream(std::move(socket)), answer_, upgrade_);
     connections_.push_back(connection);

@@ -284,6 +284,9 @@ TEST_F(StudyCommand, WrongUsageIsRefused) {
   expect_refused({"study", study, "--shard", "4/4"}, {"--shard", "PART < PARTS"});
   expect_refused({"study", study, "--shard", "x"}, {"--shard", "'x'"});
   expect_refused({"study", study, "--report", folder.path("page")}, {"--report", "--slide"});
+  expect_refused({"study", study, "--view", "0", "--shard", "0/2"}, {"--view", "--shard"});
+  std::filesystem::create_directories(folder.path("taken/index.html"));
+  expect_refused({"study", study, "--out", folder.path("taken")}, {"index.html"});
   expect_refused({"study", study, "--out", study}, {"study.yaml"});
   std::filesystem::create_directories(folder.path("out/slides.journal.jsonl"));
   expect_refused({"study", study, "--out", folder.path("out")}, {"slides.journal.jsonl"});

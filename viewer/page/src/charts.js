@@ -29,6 +29,7 @@ export class Charts {
   }
 
   clear() {
+    this.sizes.disconnect();
     for (const plot of this.plots) plot.destroy();
     this.plots = [];
   }

@@ -43,23 +43,23 @@ export class Slides {
 
 // A link to the replay of a slide, or what one has to do for it.
 export class Replays {
-  constructor({ replays, command }) {
+  constructor({ replays, command, is_served: isServed }) {
     this.known = new Set(replays);
     this.command = command;
-    this.isServed = location.protocol.startsWith('http');
+    this.isServed = isServed;
   }
 
   has(slide) {
     return this.isServed || this.known.has(slide);
   }
 
-  url(slide) {
+  place(slide) {
     return `slides/${slide}/${this.isServed ? '' : 'index.html'}`;
   }
 
   open(slide) {
     byId('replay-note').textContent = '';
-    if (this.has(slide)) return window.open(this.url(slide), '_blank');
+    if (this.has(slide)) return window.open(this.place(slide), '_blank');
     byId('replay-note').textContent = `The replay of slide ${slide} has not been made. Either of these commands makes it: ` +
       `${this.command} --slide ${slide} --report slide_${slide}, or, for all slides: ${this.command} --view`;
     return null;
@@ -68,7 +68,7 @@ export class Replays {
   cell(parent, slide) {
     const cell = append(parent, 'td', '', 'number');
     if (!this.has(slide)) cell.textContent = slide;
-    else Object.assign(append(cell, 'a', `${slide}`), { href: this.url(slide), target: '_blank', title: 'replay' });
+    else Object.assign(append(cell, 'a', `${slide}`), { href: this.place(slide), target: '_blank', title: 'replay' });
   }
 }
 
@@ -88,9 +88,10 @@ function addRate(summary, isComplete, total) {
   const weighted = summary.strata ? ', weighted by their strata' : '';
   const of = isComplete ? `${summary.slides} slides` : `the ${summary.slides} slides that are done, of ${total}`;
   append(element, 'p', `${rateOf(summary)}${range}: ${summary.successes} of ${of} succeed${weighted}.`, 'rate');
-  const track = append(element, 'div', '', 'track');
-  const [least, greatest] = interval ?? [summary.success_rate, summary.success_rate];
-  addBar(track, least, greatest, summary.success_rate);
+  if (summary.success_rate !== null) {
+    const [least, greatest] = interval ?? [summary.success_rate, summary.success_rate];
+    addBar(append(element, 'div', '', 'track'), least, greatest, summary.success_rate);
+  }
   const list = append(element, 'ul');
   for (const [outcome, count] of Object.entries(summary.outcomes)) append(list, 'li', `${outcome}: ${count}`, 'plain');
 }
@@ -99,7 +100,7 @@ function addBar(track, least, greatest, mean) {
   const bar = append(track, 'div', '', 'range');
   bar.style.left = `${100 * least}%`;
   bar.style.width = `${100 * (greatest - least)}%`;
-  append(track, 'div', '', 'mean').style.left = `${100 * mean}%`;
+  if (mean !== null) append(track, 'div', '', 'mean').style.left = `${100 * mean}%`;
 }
 
 // The numbers in a text, with three digits.
@@ -173,7 +174,7 @@ function addJams(summary, replays) {
   for (const { objects, slides, mean_m: mean, first_slide: first } of summary.jams) {
     const row = append(body, 'tr');
     append(row, 'td', objects);
-    for (const value of [slides, ...mean.map((metres) => 1e3 * metres)]) append(row, 'td', short(value), 'number');
+    for (const value of [slides, ...mean.map((metres) => Number((1e3 * metres).toFixed(4)))]) append(row, 'td', short(value), 'number');
     replays.cell(row, first);
   }
 }
@@ -199,7 +200,7 @@ export function showStudy(data, plots, chosen = {}) {
   const replays = new Replays(data);
   addRate(data.summary, data.is_complete, data.slides);
   if (slides.count < data.summary.slides) {
-    append(byId('study'), 'p', `Map, histogram and table show ${slides.count} of ${data.summary.slides} slides, evenly chosen.`);
+    append(byId('study'), 'p', `Map, histogram and table show ${slides.count} of ${data.summary.slides} slides, chosen at random.`);
   }
   addTornado(data.summary);
   const names = data.summary.parameters.map(({ name }) => name);
@@ -213,24 +214,38 @@ export function showStudy(data, plots, chosen = {}) {
 }
 
 const NEW_ROWS_MS = 3000;
+const PATIENCE = 10; // times the time that an answer takes
 
-// A server that still runs slides has new rows.
+const uses = (place) => byId(place).contains(document.activeElement);
+
+// New rows, where the reader is on the page.
+function refresh(data, plots, chosen) {
+  const { scrollY } = window;
+  document.body.style.minHeight = `${document.body.scrollHeight}px`; // nothing is there for a moment
+  showStudy(data, plots, chosen);
+  window.scrollTo(0, scrollY);
+  document.body.style.minHeight = '';
+}
+
+// A server that still runs slides has new rows. While the reader uses a control, the page waits with them.
 export function followStudy(data, plots, say) {
   const chosen = {};
   showStudy(data, plots, chosen);
-  if (data.is_complete || !location.protocol.startsWith('http')) return;
-  const refresh = async () => {
-    try {
-      const answer = await fetch('study_page.json', { cache: 'no-store' });
-      if (!answer.ok) throw new Error(`${answer.status}`);
-      const newest = await answer.json();
-      showStudy(newest, plots, chosen);
+  if (data.is_complete || !data.is_served) return;
+  let shown = data;
+  const ask = async () => {
+    const start = performance.now();
+    const answer = await fetch('study_page.json', { cache: 'no-store' }).catch(() => undefined);
+    const newest = answer?.ok ? await answer.json() : undefined;
+    if (!answer) say('no connection: tries again');
+    else if (!newest) say(await answer.text());
+    else if (uses('study') || uses('study-rows')) say('new rows come when no control is used');
+    else {
+      if (newest.summary.slides !== shown.summary.slides || newest.is_complete) refresh(newest, plots, chosen);
+      shown = newest;
       say(newest.is_complete ? '' : `${newest.summary.slides} of ${newest.slides} slides are done`);
-      if (newest.is_complete) return;
-    } catch {
-      say('no connection: tries again');
     }
-    setTimeout(refresh, NEW_ROWS_MS);
+    if (!shown.is_complete) setTimeout(ask, Math.max(NEW_ROWS_MS, PATIENCE * (performance.now() - start)));
   };
-  setTimeout(refresh, NEW_ROWS_MS);
+  setTimeout(ask, NEW_ROWS_MS);
 }

@@ -4,9 +4,9 @@ import { cssColor, onSchemeChange } from './colors.js';
 import { append } from './dom.js';
 
 const HEIGHT = 460;
-const LEFT = 70;
 const BOTTOM = 40;
 const ROOM = 14;
+const FONT = '12px system-ui, sans-serif';
 const CELLS = 16; // along each axis
 const NEAR = 14; // of a click, in pixels
 const RADIUS = 3;
@@ -22,13 +22,15 @@ class Axis {
       low = Math.min(low, value);
       high = Math.max(high, value);
     }
-    const room = high > low ? 0.02 * (high - low) : 0.5;
+    const room = slides.words.has(name) || !(high > low) ? 0.5 : 0.02 * (high - low);
     this.low = low - room;
     this.high = high + room;
   }
 
+  // Slides with the same word lie beside each other.
   share(row) {
-    return (this.slides.numberAt(this.name, row) - this.low) / (this.high - this.low);
+    const spread = this.slides.words.has(this.name) ? 0.6 * ((row * 0.618034) % 1 - 0.5) : 0;
+    return (this.slides.numberAt(this.name, row) + spread - this.low) / (this.high - this.low);
   }
 
   // Words have a label each; numbers five.
@@ -36,7 +38,10 @@ class Axis {
     const words = this.slides.words.get(this.name);
     const at = (value) => (value - this.low) / (this.high - this.low);
     if (words) return words.map((word, i) => [at(i), word]);
-    return [0, 1, 2, 3, 4].map((i) => [i / 4, `${Number((this.low + i / 4 * (this.high - this.low)).toPrecision(3))}`]);
+    const range = this.high - this.low;
+    const largest = Math.max(Math.abs(this.low), Math.abs(this.high));
+    const digits = Math.min(15, 3 + Math.max(0, Math.ceil(Math.log10(largest / range))));
+    return [0, 1, 2, 3, 4].map((i) => [i / 4, `${Number((this.low + i / 4 * range).toPrecision(digits))}`]);
   }
 }
 
@@ -81,7 +86,7 @@ class StudyMap {
 
   place(row) {
     const { width, height } = this.size;
-    return [LEFT + this.x.share(row) * width, ROOM + (1 - this.y.share(row)) * height];
+    return [this.left + this.x.share(row) * width, ROOM + (1 - this.y.share(row)) * height];
   }
 
   draw() {
@@ -89,10 +94,13 @@ class StudyMap {
     const width = Math.max(canvas.parentElement.clientWidth - 40, 200);
     Object.assign(canvas, { width: width * devicePixelRatio, height: HEIGHT * devicePixelRatio });
     Object.assign(canvas.style, { width: `${width}px`, height: `${HEIGHT}px` });
-    this.size = { width: width - LEFT - ROOM, height: HEIGHT - BOTTOM - ROOM };
-    this.x = new Axis(this.slides, this.chosen.x);
-    this.y = new Axis(this.slides, this.chosen.y);
     const ctx = canvas.getContext('2d');
+    ctx.font = FONT;
+    this.y = new Axis(this.slides, this.chosen.y);
+    this.left = 28 + Math.max(...this.y.labels().map(([, text]) => ctx.measureText(text).width));
+    canvas.dataset.left = this.left; // for tests
+    this.size = { width: width - this.left - ROOM, height: HEIGHT - BOTTOM - ROOM };
+    this.x = new Axis(this.slides, this.chosen.x);
     ctx.scale(devicePixelRatio, devicePixelRatio);
     this.drawCells(ctx);
     this.drawPoints(ctx);
@@ -112,7 +120,7 @@ class StudyMap {
       const rate = successes / (successes + failures);
       ctx.globalAlpha = 0.12 + 0.22 * Math.abs(2 * rate - 1);
       ctx.fillStyle = cssColor(rate >= 0.5 ? 'c2' : 'c4');
-      ctx.fillRect(LEFT + (key % CELLS) * cellWidth, ROOM + (CELLS - 1 - Math.floor(key / CELLS)) * cellHeight, cellWidth, cellHeight);
+      ctx.fillRect(this.left + (key % CELLS) * cellWidth, ROOM + (CELLS - 1 - Math.floor(key / CELLS)) * cellHeight, cellWidth, cellHeight);
     }
     ctx.globalAlpha = 1;
   }
@@ -144,14 +152,18 @@ class StudyMap {
     const { width, height } = this.size;
     ctx.strokeStyle = cssColor('axis');
     ctx.lineWidth = 1;
-    ctx.strokeRect(LEFT, ROOM, width, height);
+    ctx.strokeRect(this.left, ROOM, width, height);
     ctx.fillStyle = cssColor('quiet');
-    ctx.font = '12px system-ui, sans-serif';
+    ctx.font = FONT;
     ctx.textAlign = 'center';
-    for (const [share, text] of this.x.labels()) ctx.fillText(text, LEFT + share * width, ROOM + height + 15);
-    ctx.fillText(this.x.name, LEFT + width / 2, ROOM + height + 33);
+    for (const [share, text] of this.x.labels()) {
+      const half = ctx.measureText(text).width / 2;
+      const x = Math.min(this.left + share * width, this.left + width + ROOM - half);
+      ctx.fillText(text, x, ROOM + height + 15);
+    }
+    ctx.fillText(this.x.name, this.left + width / 2, ROOM + height + 33);
     ctx.textAlign = 'right';
-    for (const [share, text] of this.y.labels()) ctx.fillText(text, LEFT - 5, ROOM + (1 - share) * height + 4);
+    for (const [share, text] of this.y.labels()) ctx.fillText(text, this.left - 5, ROOM + (1 - share) * height + 4);
     ctx.save();
     ctx.translate(12, ROOM + height / 2);
     ctx.rotate(-Math.PI / 2);

@@ -23,7 +23,10 @@ export class StudyTable {
     this.body = append(table, 'tbody');
     this.more = append(section, 'button', 'More rows');
     this.more.id = 'more-rows';
-    this.more.addEventListener('click', () => this.addRows());
+    this.more.addEventListener('click', () => {
+      chosen.rows = this.body.rows.length + MORE_ROWS;
+      this.addRows();
+    });
     this.sort();
   }
 
@@ -55,8 +58,7 @@ export class StudyTable {
   }
 
   addRows() {
-    const from = this.body.rows.length;
-    for (const row of this.order.slice(from, from + (from === 0 ? FIRST_ROWS : MORE_ROWS))) {
+    for (const row of this.order.slice(this.body.rows.length, this.chosen.rows ?? FIRST_ROWS)) {
       const line = append(this.body, 'tr');
       for (const name of this.columns) {
         const value = this.slides.at(name, row);

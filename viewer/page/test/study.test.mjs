@@ -40,8 +40,9 @@ async function placeOf(page, slide) {
     return (column[slide] - low + 0.02 * (high - low)) / (1.04 * (high - low));
   };
   const [x, y] = [await page.locator('#map-x').inputValue(), await page.locator('#map-y').inputValue()];
-  // The margins of the map: 70 and 14 pixels in x, 14 and 40 in y.
-  return [box.x + 70 + share(x) * (box.width - 84), box.y + 14 + (1 - share(y)) * (box.height - 54)];
+  // The margins of the map: those of its labels and 14 pixels in x, 14 and 40 in y.
+  const left = Number(await page.locator('#map').getAttribute('data-left'));
+  return [box.x + left + share(x) * (box.width - left - 14), box.y + 14 + (1 - share(y)) * (box.height - 54)];
 }
 
 // The page that a click opens.
@@ -75,7 +76,6 @@ test('the page on disk shows what the rows say', async () => {
   await page.locator('#more-rows').click();
   assert.equal((await column()).length, SLIDES);
   await page.locator('#slides th:nth-child(2) button').click();
-  await page.locator('#more-rows').click();
   const ascending = await column();
   assert.deepEqual(ascending, [...ascending].sort((a, b) => a - b));
   await page.locator('#slides th:nth-child(2) button').click();
@@ -104,7 +104,7 @@ test('a served page follows the run, and has the replay of every slide', async (
   const first = await eventually(async () => /of the (\d+) slides that are done/.exec(await page.locator('#study').textContent()));
   assert.ok(Number(first[1]) < SLIDES);
   await eventually(async () => (await page.locator('#study').textContent()).includes(`of ${SLIDES} slides succeed`));
-  await eventually(() => program.output.includes('results:'));
+  await eventually(() => program.output.includes('page:'));
   await page.reload();
   const { replays } = JSON.parse(await page.locator('#report-study').textContent());
   assert.deepEqual(replays, [], 'a server makes each replay when one asks for it');
