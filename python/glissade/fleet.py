@@ -11,6 +11,7 @@ import argparse
 import collections
 import functools
 import hashlib
+import importlib
 import json
 import math
 import pathlib
@@ -208,6 +209,4 @@ def main() -> int:
 
 if __name__ == "__main__":
     # Workers of another program find the functions of this module by its name only.
-    from glissade.fleet import main as main_of_module
-
-    sys.exit(main_of_module())
+    sys.exit(importlib.import_module("glissade.fleet").main())
