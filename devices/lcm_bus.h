@@ -114,7 +114,7 @@ struct LinkStatistics {
   std::uint64_t other_receiver = 0;   ///< messages for another device
   std::uint64_t other_sender = 0;     ///< messages of a sender that does not hold the lease
   std::uint64_t out_of_sequence = 0;  ///< messages whose sequence number does not rise, or rises too fast
-  std::uint64_t lost = 0;             ///< sequence numbers that are missing between accepted messages
+  std::uint64_t lost = 0;             ///< numbers missing between accepted messages; refused messages count here too
   RefusedField first_wrong_size{};    ///< the field in the first message that was rejected for this reason
   RefusedField first_wrong_version{};
   RefusedField first_not_finite{};

@@ -69,8 +69,9 @@ TEST(FourGloves, LoseNoMessageButOnTheLinksOfTheirModels) {
     const devices::LinkStatistics commands = on_server->glove.link_statistics();
     const devices::LinkLosses losses = on_server->glove.link_losses();
     EXPECT_EQ(states.rejected(), states.other_receiver) << name;
-    // A busy machine may drop commands before they are sent. What was lost before the first message is not noticed.
-    EXPECT_LE(commands.lost + commands.out_of_sequence, on_server->server_end.commands_dropped()) << name;
+    // A busy machine may drop commands before they are sent. After many at once, the glove refuses the next few, and
+    // their numbers are then missing too. What was lost before the first message is not noticed.
+    EXPECT_LE(commands.lost, on_server->server_end.commands_dropped() + commands.out_of_sequence) << name;
     EXPECT_LE(states.lost, static_cast<std::uint64_t>(losses.states)) << name;
     if (name == "brake glove") EXPECT_GT(states.lost, 3U) << "a fifth of sixty a second";
   }
