@@ -80,6 +80,7 @@ struct StudyOptions {
   std::string report;
   std::optional<std::uint16_t> view_port;
   bool is_worker = false;
+  std::string worker_pages;
 };
 
 study::Shard parse_shard(const std::string& text) {
@@ -131,22 +132,28 @@ class MissingSlides {
   std::int64_t next_;
 };
 
+/// Without slides.
+StudyWork work_of(const StudyOptions& options) {
+  return {.study_file = options.file,
+          .workers = options.workers,
+          .longest = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * options.longest_s)),
+          .next = {},
+          .take = {},
+          .should_stop = StopSignal::requested};
+}
+
 /// Runs what is missing.
 void run_missing(const StudyOptions& options, const study::Study& study, const study::SlideRunner& runner,
                  const study::Shard& shard, study::StudyResults& files, std::mutex& rows_mutex) {
   MissingSlides missing(files, shard, study.slides);
   ProgressBar progress("sliding", study.slides, slides_and_rate(files.count()));
-  const StudyWork work{.study_file = options.file,
-                       .workers = options.workers,
-                       .longest = std::chrono::nanoseconds(static_cast<std::int64_t>(1e9 * options.longest_s)),
-                       .next = [&missing] { return missing(); },
-                       .take =
-                           [&](std::int64_t slide, const std::string& json) {
-                             const std::scoped_lock lock(rows_mutex);
-                             files.add(slide, json);
-                             progress.update(files.count());
-                           },
-                       .should_stop = StopSignal::requested};
+  StudyWork work = work_of(options);
+  work.next = [&missing] { return missing(); };
+  work.take = [&](std::int64_t slide, const std::string& json) {
+    const std::scoped_lock lock(rows_mutex);
+    files.add(slide, json);
+    progress.update(files.count());
+  };
   run_slides(study, runner, work);
 }
 
@@ -186,12 +193,10 @@ void run_one(const StudyOptions& options, const study::Study& study, const study
     return;
   }
   prepare_report_folder(options.report);
-  const SlidePage page = slide_page(study, runner, *options.slide, options.longest_s, [] { return false; });
-  write_html_report(page.report, options.report);
-  std::cout << page.row << '\n';
+  std::cout << write_slide_page(study, runner, *options.slide, options.report) << '\n';
 }
 
-std::unique_ptr<viewer::PageServer> open_pages(std::uint16_t port, const StudyReport& report) {
+std::unique_ptr<viewer::PageServer> open_pages(std::uint16_t port, StudyReport& report) {
   try {
     auto server =
         std::make_unique<viewer::PageServer>(port, [&report](std::string_view path) { return report.find(path); });
@@ -214,15 +219,13 @@ int run_all(const StudyOptions& options, const study::Study& study, const study:
   }
   if (shard.is_all()) prepare_report_folder(options.folder);
   std::mutex rows_mutex;
-  const StudyReport report(
-      {.study = study,
-       .runner = runner,
-       .results = files,
-       .rows_mutex = rows_mutex,
-       .folder = options.folder,
-       .command = "glissade study " + in_shell(options.file) + " --out " + in_shell(options.folder),
-       .longest_s = options.longest_s,
-       .should_stop = StopSignal::requested});
+  StudyReport report({.study = study,
+                      .runner = runner,
+                      .results = files,
+                      .rows_mutex = rows_mutex,
+                      .folder = options.folder,
+                      .command = "glissade study " + in_shell(options.file) + " --out " + in_shell(options.folder),
+                      .work = work_of(options)});
   const auto server = options.view_port ? open_pages(*options.view_port, report) : nullptr;
   run_missing(options, study, runner, shard, files, rows_mutex);
   const std::string done = std::to_string(files.count()) + " of " + std::to_string(study.slides) + " slides are done";
@@ -254,7 +257,11 @@ int run(const StudyOptions& options) {
   const study::Study study = study::read_study(options.file);
   const study::SlideRunner runner(study);
   if (options.is_worker) {
-    serve_slides([&](std::int64_t slide) { return study::json_of(study, runner.run(slide)); });
+    const std::string& pages = options.worker_pages;
+    serve_slides([&](std::int64_t slide) {
+      return pages.empty() ? study::json_of(study, runner.run(slide))
+                           : write_slide_page(study, runner, slide, page_folder(pages, slide));
+    });
     return 0;
   }
   if (!options.slide) return run_all(options, study, runner);
@@ -287,6 +294,7 @@ void add_study_command(CLI::App& app, Command& chosen) {
       ->needs(slide);
   add_view_option(*command, options->view_port)->excludes(slide)->excludes(shard);
   command->add_flag(WorkerProcess::kOption, options->is_worker)->group("");
+  command->add_option(WorkerProcess::kPagesOption, options->worker_pages)->group("");
   add_quiet_option(*command);
   command->callback([options, &chosen] {
     chosen = [options] {

@@ -61,7 +61,7 @@ class Workers {
     std::string problem;
     std::string death;
     for (int trial = 0; trial < kTrials; ++trial) {
-      if (!process) process = std::make_unique<WorkerProcess>(work_.study_file);
+      if (!process) process = std::make_unique<WorkerProcess>(work_.study_file, work_.pages);
       const WorkerProcess::Answer answer = process->run(slide, work_.longest, [this] { return should_stop(); });
       if (answer.outcome == WorkerProcess::Outcome::kDone) return answer.json;
       process.reset();

@@ -14,7 +14,8 @@ namespace glissade::apps {
 
 struct StudyWork {
   std::string study_file;
-  int workers = 1;
+  std::string pages{};                 ///< folder for the page of each slide, see `page_folder`; empty: rows only
+  int workers = 1;                     ///< processes
   std::chrono::nanoseconds longest{};  ///< time of a slide
   /// The next slide to run; std::nullopt if there is none. Not called by two threads at once.
   std::function<std::optional<std::int64_t>()> next;

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <iostream>
 #include <system_error>
+#include <vector>
 
 #include <poll.h>
 #include <spawn.h>
@@ -22,15 +23,18 @@ namespace {
 constexpr std::chrono::milliseconds kStopPeriod{100};
 
 /// Starts this program with standard input and output on `socket`.
-pid_t spawn(const std::string& study_file, int socket) {
+pid_t spawn(const std::string& study_file, const std::string& pages, int socket) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, socket, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, socket, STDOUT_FILENO);
-  // The name of the file may begin with a hyphen.
-  std::array<std::string, 5> texts{"glissade", "study", WorkerProcess::kOption, "--", study_file};
-  const std::array<char*, 6> arguments{texts[0].data(), texts[1].data(), texts[2].data(),
-                                       texts[3].data(), texts[4].data(), nullptr};
+  std::vector<std::string> texts{"glissade", "study", WorkerProcess::kOption};
+  if (!pages.empty()) texts.push_back(std::string(WorkerProcess::kPagesOption) + "=" + pages);
+  texts.insert(texts.end(), {"--", study_file});  // the name of the file may begin with a hyphen
+  std::vector<char*> arguments;
+  for (std::string& text : texts)
+    arguments.push_back(text.data());
+  arguments.push_back(nullptr);
   pid_t id = -1;
   const int error = posix_spawn(&id, "/proc/self/exe", &actions, nullptr, arguments.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -40,13 +44,13 @@ pid_t spawn(const std::string& study_file, int socket) {
 
 }  // namespace
 
-WorkerProcess::WorkerProcess(const std::string& study_file) {
+WorkerProcess::WorkerProcess(const std::string& study_file, const std::string& pages) {
   std::array<int, 2> sockets{};
   if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, sockets.data()) != 0)
     throw std::system_error(errno, std::generic_category(), "No connection to a worker process");
   socket_ = sockets[0];
   try {
-    id_ = spawn(study_file, sockets[1]);
+    id_ = spawn(study_file, pages, sockets[1]);
   } catch (...) {
     close(sockets[0]);
     close(sockets[1]);

@@ -16,10 +16,13 @@ class WorkerProcess {
  public:
   /// The option of `glissade study` that makes the program a worker: see `serve_slides`.
   static constexpr const char* kOption = "--worker";
+  /// The option for the folder with the pages of the slides.
+  static constexpr const char* kPagesOption = "--worker-pages";
 
-  /// Starts the program again, as a worker of this study. The worker ends with the thread that called the constructor.
-  /// Throws std::system_error when the system refuses a process.
-  explicit WorkerProcess(const std::string& study_file);
+  /// Starts the program again, as a worker of this study. With a folder `pages`, it writes the page of each slide
+  /// there: see `page_folder`. The worker ends with the thread that called the constructor. Throws std::system_error
+  /// when the system refuses a process.
+  WorkerProcess(const std::string& study_file, const std::string& pages);
   /// Kills the worker.
   ~WorkerProcess();
   WorkerProcess(const WorkerProcess&) = delete;

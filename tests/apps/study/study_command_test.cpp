@@ -264,6 +264,18 @@ TEST_F(StudyCommand, ThePageHasTheRowsAndItsNotableSlidesHaveReplays) {
   }
 }
 
+TEST_F(StudyCommand, APageIsMadeAgainOnlyForOtherInputs) {
+  table_of("out");
+  const nlohmann::json summary = nlohmann::json::parse(read_text_file(folder.path("out/study.json")));
+  const std::string page = folder.path("out/slides/" + summary["greatest_forces"][0].dump() + "/index.html");
+  std::ofstream(page, std::ios::app) << "<!-- mark -->";
+  table_of("out");
+  EXPECT_THAT(read_text_file(page), HasSubstr("<!-- mark -->"));
+  std::ofstream(study, std::ios::app) << "sliding: {stiffness_N_per_m: 2000}\n";
+  table_of("out");
+  EXPECT_THAT(read_text_file(page), Not(HasSubstr("<!-- mark -->")));
+}
+
 TEST_F(StudyCommand, AnImpossibleSlideHasAPageWithoutAReplay) {
   folder.write("path.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0.006,0,-0.002,1,0,0,0\n0.05,0,0,-0.003,1,0,0,0\n");
   EXPECT_EQ(glissade({"study", study, "--slide", "0", "--report", folder.path("slide")}).exit_code, 0);

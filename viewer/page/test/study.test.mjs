@@ -114,6 +114,12 @@ test('a served page follows the run, and has the replay of every slide', async (
   const rows = await page.evaluate(async () => (await fetch('slides.csv')).text());
   assert.equal(rows.trim().split('\n').length, SLIDES + 1);
   assert.equal(await page.evaluate(async () => (await fetch('slides/60/')).status), 404);
+  const url = await program.url();
+  writeFileSync(join(folder, 'square_peg_script.csv'), 'no trajectory');
+  const refused = await fetch(`${url}slides/7/`);
+  assert.equal(refused.status, 500);
+  assert.match(await refused.text(), /worker processes cannot start/);
+  assert.equal((await fetch(`${url}slides/41/`)).status, 200, 'the page that has been made stays');
   await page.context().close();
   assert.equal(await program.stop(), 0);
 });
