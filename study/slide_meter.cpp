@@ -29,8 +29,10 @@ SlideMeter::SlideMeter(const simulation::SceneBodies& bodies, const SlideGoal& g
   if (measures_clearance) clearance_.emplace(bodies);
 }
 
-bool SlideMeter::is_near(const Eigen::Isometry3d& X_WA, const Eigen::Isometry3d& X_WB) const {
-  return distance_m(X_WA, X_WB) <= goal_.distance_m && angle_deg(X_WA, X_WB) <= goal_.angle_deg;
+void SlideMeter::update(Rest& rest, double share_of_goal, const Eigen::Isometry3d& X_WV, double time_s) const {
+  const bool is_near = distance_m(X_WV, rest.X_WV) <= share_of_goal * goal_.distance_m &&
+                       angle_deg(X_WV, rest.X_WV) <= share_of_goal * goal_.angle_deg;
+  if (ticks_ == 0 || !is_near) rest = {X_WV, time_s};
 }
 
 void SlideMeter::note(std::chrono::nanoseconds time, const contact::SlidingResult& result,
@@ -41,10 +43,8 @@ void SlideMeter::note(std::chrono::nanoseconds time, const contact::SlidingResul
   measures_.duration_s = in_seconds(time);
   contact_ticks_ += result.pushing > 0 ? 1 : 0;
   if (clearance_) clearance_->note(result.X_WV, moving_X_WB, result.contacts);
-  if (ticks_ == 0 || !is_near(result.X_WV, X_WV_still_)) {
-    X_WV_still_ = result.X_WV;
-    measures_.still_since_s = in_seconds(time);
-  }
+  update(rest_, 1.0, result.X_WV, measures_.duration_s);
+  update(short_rest_, 0.1, result.X_WV, measures_.duration_s);
   if (ticks_ > 0) add_work(result, wrench);
   last_ = result;
   last_wrench_ = wrench;
@@ -88,6 +88,8 @@ SlideMeasures SlideMeter::finish() {
     measures_.clearance_min_m = clearance_->least();
     measures_.clearance_min_at_s = in_seconds(clearance_->least_at() * milliseconds(1));
   }
+  measures_.still_since_s = rest_.since_s;
+  measures_.moves_at_end = measures_.duration_s - short_rest_.since_s < 0.01;
   measures_.X_WV_end = last_.X_WV;
   measures_.goal_distance_m = distance_m(last_.X_WV, goal_.X_WGoal);
   measures_.goal_angle_deg = angle_deg(last_.X_WV, goal_.X_WGoal);

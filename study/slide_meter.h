@@ -38,12 +38,15 @@ struct SlideMeasures {
   double work_J = 0.0;     ///< of the hand against the contacts
   /// Since this time, the part has stayed as near to where it then was as it must come to its goal.
   double still_since_s = 0.0;
+  /// Within the last 10 ms, the part has moved by a tenth of how near it must come to its goal: a longer slide may end
+  /// elsewhere.
+  bool moves_at_end = false;
   std::string pushed_by;                     ///< the objects that push the part at the end
   std::optional<Eigen::Vector3d> p_Wpushed;  ///< mean of their contact points, weighted by the forces
   Eigen::Isometry3d X_WV_end = Eigen::Isometry3d::Identity();
 
   /// A part jams if contacts hold it away from its goal.
-  bool jams() const { return !goal_reached && p_Wpushed.has_value(); }
+  bool jams() const { return !goal_reached && p_Wpushed.has_value() && !moves_at_end; }
 };
 
 /// Not thread-safe. Memory does not grow with the slide.
@@ -61,7 +64,13 @@ class SlideMeter {
   SlideMeasures finish();
 
  private:
-  bool is_near(const Eigen::Isometry3d& X_WA, const Eigen::Isometry3d& X_WB) const;
+  /// A pose near which the part has been since a time.
+  struct Rest {
+    Eigen::Isometry3d X_WV = Eigen::Isometry3d::Identity();
+    double since_s = 0.0;
+  };
+
+  void update(Rest& rest, double share_of_goal, const Eigen::Isometry3d& X_WV, double time_s) const;
   void add_work(const contact::SlidingResult& result, const contact::Wrench& wrench);
   void note_pushing(const contact::SlidingResult& result);
 
@@ -73,7 +82,8 @@ class SlideMeter {
   contact::Wrench last_wrench_{};
   std::int64_t ticks_ = 0;
   std::int64_t contact_ticks_ = 0;
-  Eigen::Isometry3d X_WV_still_ = Eigen::Isometry3d::Identity();
+  Rest rest_{};
+  Rest short_rest_{};  // within a tenth of the distance
 };
 
 }  // namespace glissade::study

@@ -116,7 +116,10 @@ SlideMeasures SlideRunner::slide(const std::vector<double>& values, const SlideW
 
 std::string SlideRunner::outcome_of(const SlideMeasures& measures) const {
   const Success& success = study_.success;
-  if (!measures.goal_reached) return measures.jams() ? "jammed" : "goal missed";
+  if (!measures.goal_reached) {
+    if (measures.jams()) return "jammed";
+    return measures.p_Wpushed ? "still moving" : "goal missed";
+  }
   if (measures.force_max_N > success.force_N) return "force exceeded";
   if (measures.torque_max_Nm > success.torque_Nm) return "torque exceeded";
   if (measures.clearance_min_m < success.clearance_m) return "too near";

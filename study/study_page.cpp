@@ -104,6 +104,8 @@ std::vector<std::int64_t> StudyPage::notable_slides() const {
   const auto& jams = summary.at("jams");
   for (std::size_t i = 0; i < std::min(kMostJams, jams.size()); ++i)
     slides.insert(jams[i].at("first_slide").get<std::int64_t>());
+  for (const std::int64_t slide : table_->summary.first_failures())
+    slides.insert(slide);
   return {slides.begin(), slides.end()};
 }
 

@@ -31,8 +31,8 @@ class StudyPage {
   /// Adds a row, as `json_of` made it. Rows come in the order of the slides; some may be missing.
   void add(const std::string& json);
 
-  /// The slides that one wants to see first: those with the greatest forces, and one for each of the places where most
-  /// slides jam.
+  /// The slides that one wants to see first: those with the greatest forces, one for each of the places where most
+  /// slides jam, and the first failure with each outcome.
   std::vector<std::int64_t> notable_slides() const;
 
   /// The data of the page, as JSON.

@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include <glissade/apps/commands/command.h>
+#include <glissade/apps/commands/size_warnings.h>
 #include <glissade/apps/progress.h>
 #include <glissade/apps/report/html_report.h>
 #include <glissade/apps/run/stop_signal.h>
@@ -255,6 +256,10 @@ int run_all(const StudyOptions& options, const study::Study& study, const study:
 
 int run(const StudyOptions& options) {
   const study::Study study = study::read_study(options.file);
+  if (!options.is_worker) {
+    for (const std::string& sentence : doubtful_objects(study.scene))
+      warn(sentence);
+  }
   const study::SlideRunner runner(study);
   if (options.is_worker) {
     const std::string& pages = options.worker_pages;

@@ -43,8 +43,14 @@ void StudySummary::add(const nlohmann::json& row) {
   }
   slides_.push_back(row.at("slide").get<std::int64_t>());
   success_.push_back(row.at("success").get<int>() == 1);
-  ++outcomes_[row.at("outcome").get<std::string>()];
-  problems_ += row.at("problem").is_null() ? 0 : 1;
+  const auto outcome = row.at("outcome").get<std::string>();
+  ++outcomes_[outcome];
+  if (!row.at("problem").is_null()) {
+    ++problems_;
+  } else if (!success_.back()) {
+    std::int64_t& first = first_failures_.try_emplace(outcome, slides_.back()).first->second;
+    first = std::min(first, slides_.back());
+  }
   const bool has_force = row.contains("force_max_N") && row["force_max_N"].is_number();
   forces_.push_back(has_force ? row["force_max_N"].get<double>() : unknown);
   if (!row.contains("jam_objects") || row["jam_objects"].is_null()) return;
@@ -55,6 +61,13 @@ void StudySummary::add(const nlohmann::json& row) {
 
 std::int64_t StudySummary::successes() const {
   return std::count(success_.begin(), success_.end(), true);
+}
+
+std::vector<std::int64_t> StudySummary::first_failures() const {
+  std::vector<std::int64_t> slides;
+  for (const auto& [outcome, slide] : first_failures_)
+    slides.push_back(slide);
+  return slides;
 }
 
 /// Of a stratified study.

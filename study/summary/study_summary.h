@@ -28,6 +28,9 @@ class StudySummary {
   std::int64_t successes() const;
   std::int64_t problems() const { return problems_; }
 
+  /// The first slide, by number, of each outcome but success. Slides that could not be run are left out.
+  std::vector<std::int64_t> first_failures() const;
+
   /// The success rate, if each stratum has slides.
   std::optional<Rate> rate() const;
 
@@ -63,6 +66,7 @@ class StudySummary {
   std::vector<bool> success_{};
   std::vector<double> forces_{};  // not a number if unknown
   std::map<std::string, std::int64_t> outcomes_{};
+  std::map<std::string, std::int64_t> first_failures_{};  // by outcome
   std::vector<Jam> jams_{};
   std::int64_t problems_ = 0;
 };

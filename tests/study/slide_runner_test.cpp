@@ -83,6 +83,22 @@ TEST(SlideRunner, MeasuresAreThoseOfTheSpring) {
   EXPECT_NEAR(measures.p_Wpushed->x(), 0.02, 0.005);
 }
 
+/// The peg stands on the plate beside the hole, and the ghost of the second slide drags it along until the end.
+TEST(SlideRunner, APartThatStillMovesIsNotJammed) {
+  const StudyFolder folder;
+  const Study study = folder.read(
+      "parameters:\n"
+      "  - {vary: path.x_m, one_of: [0.02]}\n"
+      "  - {vary: end.x_m, one_of: [0, 0.01]}\n"
+      "sampling: grid\n");
+  const SlideRunner runner(study);
+  EXPECT_EQ(runner.run(0).outcome, "jammed");
+  const SlideRow row = runner.run(1);
+  EXPECT_EQ(row.outcome, "still moving");
+  EXPECT_FALSE(row.measures.jams());
+  EXPECT_EQ(row.measures.pushed_by, "right");
+}
+
 /// Each target changes what it says: the end of the path of the peg in free space, or the force of a contact.
 TEST(SlideRunner, TargetsDisplaceTheirBodies) {
   const StudyFolder folder;

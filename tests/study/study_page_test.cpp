@@ -78,7 +78,7 @@ TEST(StudyPage, SlidesMayBeMissing) {
   EXPECT_EQ(column(page, "slide").size(), 15U);
 }
 
-TEST(StudyPage, NotableSlidesHaveTheGreatestForcesAndTheJams) {
+TEST(StudyPage, NotableSlidesHaveTheGreatestForcesTheJamsAndTheFirstFailure) {
   const SlideRunner runner(offsets());
   StudyPage page(offsets());
   for (int slide = 0; slide < 20; ++slide)
@@ -87,6 +87,10 @@ TEST(StudyPage, NotableSlidesHaveTheGreatestForcesAndTheJams) {
   const json summary = json::parse(page.to_json({}))["summary"];
   for (const auto& slide : summary["greatest_forces"])
     EXPECT_THAT(notable, testing::Contains(slide.get<std::int64_t>()));
+  std::int64_t first_failure = 0;
+  while (runner.run(first_failure).outcome == "success")
+    ++first_failure;
+  EXPECT_THAT(notable, testing::Contains(first_failure));
   ASSERT_FALSE(summary["jams"].empty());
   EXPECT_THAT(notable, testing::Contains(summary["jams"][0]["first_slide"].get<std::int64_t>()));
 }

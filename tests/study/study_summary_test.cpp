@@ -91,6 +91,18 @@ TEST_F(Summary, JamsAtOnePlaceAreCountedTogether) {
   EXPECT_EQ(jams[1]["first_slide"], 5);
 }
 
+TEST_F(Summary, EachKindOfFailureHasAFirstSlide) {
+  const auto add = [&](const std::string& outcome, const json& problem) {
+    json one = row(0.0, "incremental", outcome == "success");
+    one.update({{"outcome", outcome}, {"problem", problem}});
+    summary.add(one);
+  };
+  for (const char* outcome : {"success", "jammed", "too near", "jammed", "success"})
+    add(outcome, nullptr);
+  add("not run", "its process was killed");
+  EXPECT_THAT(summary.first_failures(), testing::UnorderedElementsAre(1, 2));
+}
+
 TEST_F(Summary, TheGreatestForcesComeFirst) {
   for (int i = 0; i < 15; ++i) {
     json one = row(0.0, "incremental", true);

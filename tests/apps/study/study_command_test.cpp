@@ -167,6 +167,15 @@ TEST_F(StudyCommand, ALineThatIsNoRowIsToldWithItsPlace) {
   expect_refused({"study", study, "--out", folder.path("out")}, {"slides.jsonl:1", "no row"});
 }
 
+TEST_F(StudyCommand, APartInMillimetresIsDoubted) {
+  folder.write("large.yaml", "objects: [{name: peg, movable: true, shape: {type: box, size_x_m: 16}}]\n");
+  folder.write("way.csv", "t_s,x_m,y_m,z_m,qw,qx,qy,qz\n0,0,0,0,1,0,0,0\n0.01,0,0,0,1,0,0,0\n");
+  const std::string large = folder.write("large_study.yaml",
+                                         "scene: large.yaml\npart: peg\ntrajectory: way.csv\nslides: 1\n"
+                                         "parameters: [{vary: path.x_m, one_of: [0]}]\n");
+  EXPECT_THAT(glissade({"study", large}).standard_error, HasSubstr("object 'peg' is 16 m across"));
+}
+
 TEST_F(StudyCommand, AFileNameMayBeginWithAHyphen) {
   write_study("-study.yaml", 4);
   const ProgramResult result =

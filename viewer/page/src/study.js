@@ -125,6 +125,10 @@ function addTornado(summary) {
     for (const bin of [worst, best]) append(row, 'td', `${percent(bin.success_rate)} at ${rounded(bin.values)}`);
     append(row, 'td', percent(share), 'number');
   }
+  if (summary.parameters.length < 2 || !(summary.success_rate > 0 && summary.success_rate < 1)) return;
+  const alone = summary.parameters.reduce((sum, parameter) => sum + parameter.share_of_variance, 0);
+  append(element, 'p', `Alone, the parameters explain ${percent(alone)} of the variance together. ` +
+    'The rest comes from their combinations: see the map.');
 }
 
 const BARS = 40;
