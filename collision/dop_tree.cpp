@@ -1,4 +1,6 @@
 #include <atomic>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 
@@ -12,6 +14,36 @@
 #include "tree/dop_vertices.h"
 
 namespace glissade::collision {
+
+/// The OBB tree of a DOP-tree, made when it is first asked for. Thread-safe.
+class KnownObbTree {
+ public:
+  KnownObbTree() = default;
+  KnownObbTree(const KnownObbTree& other) : known_(other.known()) {}
+  KnownObbTree& operator=(const KnownObbTree&) = delete;
+  ~KnownObbTree() = default;
+
+  std::shared_ptr<const ObbTree> of(const DopTree& tree) {
+    const std::scoped_lock lock(mutex_);
+    if (known_ == nullptr) known_ = std::make_shared<const ObbTree>(tree);
+    return known_;
+  }
+
+  void forget() {
+    const std::scoped_lock lock(mutex_);
+    known_ = nullptr;
+  }
+
+ private:
+  std::shared_ptr<const ObbTree> known() const {
+    const std::scoped_lock lock(mutex_);
+    return known_;
+  }
+
+  mutable std::mutex mutex_{};
+  std::shared_ptr<const ObbTree> known_{};
+};
+
 namespace {
 
 constexpr double kLargestCoordinate = 1e9;
@@ -63,6 +95,7 @@ DopTree::DopTree(std::shared_ptr<const geometry::TriangleMesh> mesh, const DopTr
       options_(options),
       heads_(std::move(shape.nodes)),
       leaves_(std::move(shape.leaves)),
+      obbs_(std::make_unique<KnownObbTree>()),
       lines_of_node_(static_cast<std::size_t>(slab_lines(dop_directions(options.directions).slabs))),
       depth_(shape.depth) {
   slabs_.resize(heads_.size() * lines_of_node_);
@@ -84,6 +117,7 @@ DopTree::DopTree(const DopTree& other)
       slabs_(other.slabs_),
       vertices_(other.vertices_ == nullptr ? nullptr : std::make_unique<DopVertices>(*other.vertices_)),
       leaves_(other.leaves_),
+      obbs_(std::make_unique<KnownObbTree>(*other.obbs_)),
       lines_of_node_(other.lines_of_node_),
       id_(other.id_),
       degenerate_triangles_(other.degenerate_triangles_),
@@ -137,8 +171,13 @@ void DopTree::refit() {
   degenerate_triangles_ = fit_leaves(*mesh_, grid, leaves_);
   fit_nodes(options_.directions, options_.thin_slab, leaves_, heads_, slabs_);
   if (vertices_) vertices_->fit(heads_, slabs_);
+  obbs_->forget();
   static std::atomic<std::uint64_t> ids{0};
   id_ = ++ids;
+}
+
+std::shared_ptr<const ObbTree> DopTree::obb_tree() const {
+  return obbs_->of(*this);
 }
 
 std::size_t DopTree::memory_bytes() const {

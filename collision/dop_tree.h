@@ -21,6 +21,8 @@
 
 namespace glissade::collision {
 
+class KnownObbTree;
+class ObbTree;
 struct NodeHead;
 struct SlabLine;
 struct TriangleLeaf;
@@ -107,6 +109,10 @@ class GLISSADE_EXPORT DopTree {
   /// entry stands for an unused place or for a triangle without area.
   std::span<const std::int32_t, kWidth> triangles_of_leaf(std::uint32_t leaf) const;
 
+  /// The oriented boxes of the tree as it is fitted now. The first call makes them, later calls and copies of the tree
+  /// share them. Thread-safe.
+  std::shared_ptr<const ObbTree> obb_tree() const;
+
   /// A number that identifies the tree and its fit. The number is unique in this process and never 0. Construction and
   /// each `refit` assign a new number. A copy has the number of the original.
   std::uint64_t id() const { return id_; }
@@ -138,6 +144,7 @@ class GLISSADE_EXPORT DopTree {
   std::vector<SlabLine> slabs_;
   std::unique_ptr<DopVertices> vertices_;  // only with Realignment::kBruteForce
   std::vector<TriangleLeaf> leaves_;
+  std::unique_ptr<KnownObbTree> obbs_;
   std::size_t lines_of_node_ = 0;  // cache lines of slabs for each node, after its head
   std::uint64_t id_ = 0;
   std::int64_t degenerate_triangles_ = 0;
@@ -146,6 +153,36 @@ class GLISSADE_EXPORT DopTree {
   Eigen::Vector3d half_size_ = Eigen::Vector3d::Zero();
   double radius_ = 0.0;
   double inverse_radius_ = 0.0;
+};
+
+/// An oriented bounding box: all points x with |axes.col(i)·(x − c)| ≤ half_size[i] and |x − c| ≤ radius; metres. The
+/// axes are orthonormal, the first is the direction of least thickness: the box of a plane patch is as flat as rounding
+/// allows, however large the patch is. A negative radius marks an empty box.
+struct Obb {
+  Eigen::Vector3d c;
+  Eigen::Matrix3d axes;
+  Eigen::Vector3d half_size;
+  double radius;
+
+  /// Half of the extent of the box along a unit vector n, metres.
+  double extent_along(const Eigen::Vector3d& n) const { return half_size.dot((axes.transpose() * n).cwiseAbs()); }
+};
+
+/// An OBB tree (Gottschalk, Lin and Manocha 1996) with the nodes of a DOP-tree: a box for every child of every node, in
+/// the frame of the tree. The slabs of a DOP-tree lie on a 16-bit grid, which suffices to find near triangles. These
+/// boxes are for proofs at micrometres. Immutable, so threads may share it.
+class GLISSADE_EXPORT ObbTree {
+ public:
+  /// Cost O(n log n).
+  explicit ObbTree(const DopTree& tree);
+
+  /// The box of the triangles below a child, which the node must have.
+  const Obb& box(std::uint32_t node, int child) const {
+    return boxes_[static_cast<std::size_t>(DopTree::kWidth) * node + static_cast<std::size_t>(child)];
+  }
+
+ private:
+  std::vector<Obb> boxes_;
 };
 
 // Cache files. A cache file next to a mesh file saves the building of the tree in every run: with 100,000 triangles,

@@ -4,8 +4,6 @@
 #include <glissade/contact/contact_body.h>
 #include <glissade/geometry/mesh_import.h>
 
-#include "certificate/obb_tree.h"
-
 namespace glissade::contact {
 namespace {
 
@@ -32,7 +30,7 @@ ContactBody::ContactBody(const std::shared_ptr<const geometry::TriangleMesh>& me
       features(
           tree, [this](std::int32_t triangle) { return owns_corner(topology, triangle); },
           [this](std::int32_t triangle) { return topology.owns_stopping_feature(triangle); }),
-      obbs_(std::make_unique<const ObbTree>(tree)) {}
+      obbs(tree.obb_tree()) {}
 
 ContactBody::~ContactBody() = default;
 

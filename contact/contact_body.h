@@ -20,8 +20,6 @@
 
 namespace glissade::contact {
 
-class ObbTree;
-
 /// A mesh with its DOP-tree (a bounding-volume hierarchy), convex hull and topology. Immutable after construction, so
 /// threads may share it.
 struct GLISSADE_EXPORT ContactBody {
@@ -40,10 +38,7 @@ struct GLISSADE_EXPORT ContactBody {
   /// stop another body is half selected. The selected pairs are the pairs for which `MeshTopology::can_stop_each_other`
   /// is true.
   collision::TriangleSelection features;
-
- private:
-  friend struct ObbAccess;
-  std::unique_ptr<const ObbTree> obbs_;  // for path certificates
+  std::shared_ptr<const collision::ObbTree> obbs;  ///< of `tree`, for path certificates
 };
 
 /// The largest allowed distance of a compliance point from the centre of the part's bounding box, in radii of the part.

@@ -1,5 +1,3 @@
-#include "certificate/obb_tree.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,22 +5,21 @@
 
 #include <Eigen/Eigenvalues>
 
-namespace glissade::contact {
+#include <glissade/collision/dop_tree.h>
+
+namespace glissade::collision {
 namespace {
 
-using collision::DopTree;
-using collision::TreeNode;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
 
 /// Bound of the rounding errors of the sums here, relative to the largest coordinate.
-constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
+constexpr double kRoundingOfBoxes = 32.0 * std::numeric_limits<double>::epsilon();
 
 /// The corners of triangles, and the box around them.
-class BoxFit {
+class ObbFit {
  public:
-  BoxFit(const geometry::TriangleMesh& mesh, std::span<const std::int32_t> triangles)
-      : mesh_(mesh), triangles_(triangles) {
+  ObbFit(const TriangleMesh& mesh, std::span<const std::int32_t> triangles) : mesh_(mesh), triangles_(triangles) {
     for_each_corner([&](const Vector3d& x) { bounds_.extend(x); });
     find_largest();
     find_spread();
@@ -41,7 +38,7 @@ class BoxFit {
       high = high.cwiseMax(in_axes);
     });
     box.c = box.axes * (0.5 * (low + high));
-    const double rounding = kRounding * bounds_.min().cwiseAbs().cwiseMax(bounds_.max().cwiseAbs()).maxCoeff();
+    const double rounding = kRoundingOfBoxes * bounds_.min().cwiseAbs().cwiseMax(bounds_.max().cwiseAbs()).maxCoeff();
     box.half_size = (0.5 * (high - low)).array() + rounding;
     double farthest = 0.0;
     for_each_corner([&](const Vector3d& x) { farthest = std::max(farthest, (x - box.c).squaredNorm()); });
@@ -122,7 +119,7 @@ class BoxFit {
     return best;
   }
 
-  const geometry::TriangleMesh& mesh_;
+  const TriangleMesh& mesh_;
   std::span<const std::int32_t> triangles_;
   Eigen::AlignedBox3d bounds_;
   std::int32_t largest_triangle_ = 0;
@@ -130,15 +127,15 @@ class BoxFit {
   Eigen::Matrix3d spread_ = Eigen::Matrix3d::Identity();
 };
 
-Obb box_of(const geometry::TriangleMesh& mesh, std::span<const std::int32_t> triangles) {
+Obb obb_of(const TriangleMesh& mesh, std::span<const std::int32_t> triangles) {
   if (triangles.empty()) return {Vector3d::Zero(), Eigen::Matrix3d::Identity(), Vector3d::Zero(), -1.0};
-  return BoxFit(mesh, triangles).box();
+  return ObbFit(mesh, triangles).box();
 }
 
 /// Visits nodes depth first, so that the triangles below each node are contiguous.
-class Builder {
+class ObbTreeBuilder {
  public:
-  Builder(const DopTree& tree, std::vector<Obb>& boxes) : tree_(tree), boxes_(boxes) {}
+  ObbTreeBuilder(const DopTree& tree, std::vector<Obb>& boxes) : tree_(tree), boxes_(boxes) {}
 
   void visit(std::uint32_t node) {
     const TreeNode head = tree_.node(node);
@@ -150,7 +147,7 @@ class Builder {
         visit(head.child(child));
       }
       boxes_[static_cast<std::size_t>(DopTree::kWidth) * node + static_cast<std::size_t>(child)] =
-          box_of(tree_.mesh(), std::span(triangles_).subspan(begin));
+          obb_of(tree_.mesh(), std::span(triangles_).subspan(begin));
     }
   }
 
@@ -169,7 +166,7 @@ class Builder {
 }  // namespace
 
 ObbTree::ObbTree(const DopTree& tree) : boxes_(static_cast<std::size_t>(DopTree::kWidth) * tree.node_count()) {
-  Builder(tree, boxes_).visit(0);
+  ObbTreeBuilder(tree, boxes_).visit(0);
 }
 
-}  // namespace glissade::contact
+}  // namespace glissade::collision

@@ -6,7 +6,8 @@
 
 #include <Eigen/Core>
 
-#include "certificate/obb_tree.h"
+#include <glissade/collision/dop_tree.h>
+
 #include "scene/contact_scene.h"
 
 namespace glissade::contact {
@@ -17,7 +18,7 @@ struct TreeItem {
 
   Kind kind;
   std::uint32_t number;
-  const Obb* box;  ///< box of its triangles; null for a triangle
+  const collision::Obb* box;  ///< box of its triangles; null for a triangle
 };
 
 /// A child of a node as an item; the node must have it.

@@ -169,8 +169,8 @@ void PathCertificate::prove(const OpenItems& items, WorkBudget& budget) {
 
 /// Whether the contents of two items certainly keep the minimum clearance on the whole path.
 bool PathCertificate::are_apart(const MovingItem& item_O, const MovingItem& item_V) const {
-  const Obb& box_O = *item_O.item.box;
-  const Obb& box_V = *item_V.item.box;
+  const collision::Obb& box_O = *item_O.item.box;
+  const collision::Obb& box_V = *item_V.item.box;
   if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;
   const double together = box_O.radius + box_V.radius + far_;
   if ((item_V.c_W[0] - item_O.c_W[0]).squaredNorm() > together * together) return true;

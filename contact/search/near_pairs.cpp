@@ -5,7 +5,6 @@
 
 #include <glissade/collision/dop_query.h>
 
-#include "certificate/obb_access.h"
 #include "certificate/separating_planes.h"
 #include "search/round_down.h"
 
@@ -45,8 +44,8 @@ class PairSearch final : public collision::DualTreeVisitor {
 
   bool accepts(const collision::TreeChild& child_O, const collision::TreeChild& child_V) override {
     if (!is_sought(child_O, child_V)) return false;
-    const Obb& box_O = obb_tree_of(*obstacle_.body).box(child_O.node, child_O.child);
-    const Obb& box_V = obb_tree_of(*part_.body).box(child_V.node, child_V.child);
+    const collision::Obb& box_O = obstacle_.body->obbs->box(child_O.node, child_O.child);
+    const collision::Obb& box_V = part_.body->obbs->box(child_V.node, child_V.child);
     if (box_O.radius < 0.0 || box_V.radius < 0.0) return true;  // an empty box
     const Eigen::Vector3d between_O = X_OV_ * box_V.c - box_O.c;
     for (const Eigen::Vector3d& n_O : {box_O.axes.col(0).eval(), (X_OV_.linear() * box_V.axes.col(0)).eval()}) {

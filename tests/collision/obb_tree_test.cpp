@@ -1,7 +1,5 @@
 // Boxes of what a tree holds: nothing sticks out of them, and what is flat or square is as tight as rounding.
 
-#include "certificate/obb_tree.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +10,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glissade/collision/dop_tree.h>
 #include <glissade/geometry/mesh_generators.h>
 #include <glissade/geometry/triangle_mesh.h>
 
@@ -21,10 +20,9 @@
 #include "tree_triangles.h"
 #include "trees.h"
 
-namespace glissade::contact {
+namespace glissade::collision {
 namespace {
 
-using collision::DopTree;
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
 using geometry::TriangleMesh;
@@ -188,4 +186,4 @@ TEST(ObbTree, OfTrianglesWithoutAreaHoldNothing) {
 }
 
 }  // namespace
-}  // namespace glissade::contact
+}  // namespace glissade::collision
